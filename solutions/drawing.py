@@ -6,7 +6,6 @@ from contextlib import nullcontext
 from typing import Any
 
 from pydantic import ValidationError
-from sympy import Rational
 
 from rldrill.problems.catalogue import OWN
 from rldrill.problems.catalogue import family as family_of
@@ -17,8 +16,9 @@ from rldrill.problems.family import Family, Givens, Problem, trusted
 from rldrill.problems.identity import MAX_SEED, Identity, split_id
 from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, digits, is_zero, parameters
+from rldrill.solutions.formula.elimination import largest
 from rldrill.solutions.solution import Solution, solve
-from rldrill.solutions.work import Elimination, Equality
+from rldrill.solutions.work import Elimination
 
 ATTEMPTS = 2000
 #: The most digits, above and below the line together, that an answer may have at each level.
@@ -112,11 +112,7 @@ def flaws(solution: Solution) -> Iterator[str]:
 
 def _eliminated(solution: Solution) -> int:
     """The largest whole number, above a line or below it, with which linear systems are solved."""
-    systems = [line for line in solution.lines if isinstance(line, Elimination)]
-    sides = [side for system in systems for line in system.lines() if isinstance(line, Equality)
-             for side in (line.left, *line.rights)]  # fmt: skip
-    numbers = [number for side in sides for number in side.atoms(Rational)]
-    return max((max(abs(number.p), number.q) for number in numbers), default=0)
+    return max((largest(line.equations) for line in solution.lines if isinstance(line, Elimination)), default=0)
 
 
 def distinguishable(solution: Solution, answers: Mapping[str, Any]) -> bool:

@@ -1,7 +1,8 @@
 """A system of linear equations solved in front of the reader: one unknown after the other is put into the rest."""
 
 from collections import Counter
-from collections.abc import Generator, Hashable, Iterator, Mapping
+from collections.abc import Callable, Generator, Hashable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
@@ -15,68 +16,87 @@ from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.rational import common_denominator
 
 Sides = tuple[Expr, tuple[Expr, ...]]
-Names = Mapping[Hashable, Expr]
 #: An equation: so many times an unknown on the left, and its right side.
 _Multiple = tuple[Value, Affine]
 #: Of more unknowns than this nobody wants to read the elimination.
 MOST_UNKNOWNS = 6
 
 
-def elimination(names: Names, equations: Mapping[Hashable, Any]) -> Iterator[str | Sides]:
+def elimination(names: Mapping[Hashable, Expr], equations: Mapping[Hashable, Any]) -> Iterator[str | Sides]:
     """The lines of the elimination: sentences, and equations with their right sides.
 
     Args:
         names: how each unknown is written.
         equations: for every unknown its right side, an ``Affine`` or a plain value.
     """
+    return _eliminated(_Pen(names, _times, _sum, _added), equations)
+
+
+def largest(equations: Mapping[Hashable, Any]) -> int:
+    """The largest whole number in the lines of the elimination, above a line or below it; they are not written."""
+    lines = _eliminated(_Pen(dict.fromkeys(equations, 0), _largest_factor, _largest_term, _both), equations)
+    return max((max(line[0], *line[1]) for line in lines if not isinstance(line, str)), default=0)
+
+
+@dataclass(frozen=True, slots=True)
+class _Pen:
+    """How unknowns, products, sums, and right sides with their values are written; or what is noted of them instead."""
+
+    names: Mapping[Hashable, Any]
+    times: Callable[..., Any]
+    sum: Callable[..., Any]
+    added: Callable[[Any, Any], tuple[Any, ...]]
+
+
+def _eliminated(pen: _Pen, equations: Mapping[Hashable, Any]) -> Iterator[Any]:
     open_ = {key: (ONE, _affine(side)) for key, side in equations.items()}
     if any(side.factors for _, side in open_.values()):
         yield "Multiplied out:"
         for key, (_, side) in open_.items():
-            yield names[key], (_written(side, names),)
+            yield pen.names[key], (_written(side, pen),)
         for key, equation in open_.items():
             if key in equation[1].factors and _others(key, equation):
-                open_[key] = yield from _collected(key, equation, names)
+                open_[key] = yield from _collected(key, equation, pen)
     solved: dict[Hashable, _Multiple] = {}
     values: dict[Hashable, Affine] = {}
     while open_:
         key = _easiest(open_)
         if _others(key, open_[key]):  # nothing is known by itself any more
             for each, equation in open_.items():
-                open_[each] = yield from _collected(each, equation, names)
+                open_[each] = yield from _collected(each, equation, pen)
             key = _easiest(open_)
-        solved[key] = yield from _collected(key, open_.pop(key), names)
+        solved[key] = yield from _collected(key, open_.pop(key), pen)
         if not _others(key, solved[key]):
-            values[key] = yield from _divided(key, solved[key], names)
+            values[key] = yield from _divided(key, solved[key], pen)
         by = (ONE, values[key]) if key in values else solved[key]
         for other, equation in open_.items():
             if key in equation[1].factors:
-                open_[other] = yield from _put_in(other, equation, key, by, names)
+                open_[other] = yield from _put_in(other, equation, key, by, pen)
     for key, (scale, side) in reversed(solved.items()):
         if key not in values:
             value = side
             for other in side.factors:
                 value = _affine(_without(value, other) + values[other] * value.factors[other])
-            yield _times(names[key], scale), _added(_written(side, names, values), _written(value, names))
-            values[key] = yield from _divided(key, (scale, value), names)
+            yield pen.times(pen.names[key], scale), pen.added(_written(side, pen, values), _written(value, pen))
+            values[key] = yield from _divided(key, (scale, value), pen)
 
 
-def _collected(key: Hashable, equation: _Multiple, names: Names) -> Generator[Sides, None, _Multiple]:
+def _collected(key: Hashable, equation: _Multiple, pen: _Pen) -> Generator[Sides, None, _Multiple]:
     """An equation with its own unknown on the left alone; no denominators, but where it can be divided at once."""
     scale, side = equation
     if key in side.factors:
         scale, side = simplest(scale - side.factors[key]), _without(side, key)
-        yield _times(names[key], scale), (_written(side, names),)
+        yield pen.times(pen.names[key], scale), (_written(side, pen),)
     lasts = bool(side.factors) or not is_rational(scale)
     factor = common_denominator((scale, side.constant, *side.factors.values())) if lasts else None
     if factor is not None and factor != 1:
         scale, side = simplest(scale * factor), _affine(side * factor)
-        yield _times(names[key], scale), (_written(side, names),)
+        yield pen.times(pen.names[key], scale), (_written(side, pen),)
     return scale, side
 
 
 def _put_in(
-    key: Hashable, equation: _Multiple, known: Hashable, by: _Multiple, names: Names
+    key: Hashable, equation: _Multiple, known: Hashable, by: _Multiple, pen: _Pen
 ) -> Generator[Sides, None, _Multiple]:
     """An equation into which another is put, multiplied first so that the other's left side stands in it."""
     (scale, side), (each, instead) = equation, by
@@ -85,12 +105,12 @@ def _put_in(
     share = simplest(share * factor)
     rest = _without(side, known)
     after = _affine(rest * factor + instead * share)
-    others = tuple(_terms(rest, names, factor))
-    multiplied = (_sum(*others, _times(names[known], share, each)),) if factor != 1 else ()
-    put_in = _sum(*others, _times(_written(instead, names), share))
-    yield _times(names[key], scale, factor), (*multiplied, *_added(put_in, _written(after, names)))
+    others = tuple(_terms(rest, pen, factor))
+    multiplied = (pen.sum(*others, pen.times(pen.names[known], share, each)),) if factor != 1 else ()
+    put_in = pen.sum(*others, pen.times(_written(instead, pen), share))
+    yield pen.times(pen.names[key], scale, factor), (*multiplied, *pen.added(put_in, _written(after, pen)))
     equation = simplest(scale * factor), after
-    return (yield from _collected(key, equation, names)) if key in after.factors else equation
+    return (yield from _collected(key, equation, pen)) if key in after.factors else equation
 
 
 def _added(put_in: Expr, value: Expr) -> tuple[Expr, ...]:
@@ -101,13 +121,13 @@ def _added(put_in: Expr, value: Expr) -> tuple[Expr, ...]:
     return put_in, together, value
 
 
-def _divided(key: Hashable, equation: _Multiple, names: Names) -> Generator[Sides, None, Affine]:
+def _divided(key: Hashable, equation: _Multiple, pen: _Pen) -> Generator[Sides, None, Affine]:
     """The value of an unknown of which a multiple is known."""
     scale, value = equation
     if scale == 1:
         return value
     value = _affine(value * (ONE / scale))
-    yield names[key], (_written(value, names),)
+    yield pen.names[key], (_written(value, pen),)
     return value
 
 
@@ -138,18 +158,18 @@ def _without(side: Affine, key: Hashable) -> Affine:
     return Affine({other: factor for other, factor in side.factors.items() if other != key}, side.constant)
 
 
-def _written(side: Affine, names: Names, put: Mapping[Hashable, Affine] | None = None) -> Expr:
-    """A right side as an expression, with values in place of the unknowns if they are known."""
-    values = {key: _written(value, names) for key, value in (put or {}).items()}
-    return _sum(*_terms(side, {**names, **values}))
+def _written(side: Affine, pen: _Pen, put: Mapping[Hashable, Affine] | None = None) -> Any:
+    """A right side as it is written, with values in place of the unknowns if they are known."""
+    values = {key: _written(value, pen) for key, value in (put or {}).items()}
+    return pen.sum(*_terms(side, replace(pen, names={**pen.names, **values}) if values else pen))
 
 
-def _terms(side: Affine, names: Names, factor: Value = ONE) -> Iterator[Expr]:
+def _terms(side: Affine, pen: _Pen, factor: Value = ONE) -> Iterator[Any]:
     """The terms of so many times a right side."""
     if side.constant != 0:
-        yield _times(None, side.constant, factor)
+        yield pen.times(None, side.constant, factor)
     for key, number in side.factors.items():
-        yield _times(names[key], number, factor)
+        yield pen.times(pen.names[key], number, factor)
 
 
 def _sum(*terms: Expr) -> Expr:
@@ -190,3 +210,21 @@ def _in_order(expression: Expr) -> Expr:
     if not below.free_symbols:
         return ordered(expression)
     return sympy.Mul(above, sympy.Pow(below, -1, evaluate=False), evaluate=False)
+
+
+def _largest_factor(unknown: int | None, *factors: Value) -> int:
+    number, found = ONE, unknown or 0
+    for factor in factors:
+        if is_rational(factor):
+            number *= factor
+        else:
+            found = max(found, *(max(abs(each.p), each.q) for each in to_sympy(factor).atoms(sympy.Rational)))
+    return max(found, abs(int(number.p)), int(number.q))
+
+
+def _largest_term(*terms: int) -> int:
+    return max(terms, default=0)
+
+
+def _both(put_in: int, value: int) -> tuple[int, int]:
+    return put_in, value

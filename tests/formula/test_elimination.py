@@ -4,7 +4,7 @@ from flint import fmpq
 from sympy import Symbol
 
 from rldrill.render.mathematics.unicode import unicode
-from rldrill.solutions.formula.elimination import elimination
+from rldrill.solutions.formula.elimination import elimination, largest
 from rldrill.solutions.formula.equations import Affine
 from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.rational import generator
@@ -116,3 +116,13 @@ def test_with_an_open_parameter() -> None:
 
 def test_what_is_already_solved_needs_no_words() -> None:
     assert lines(x=Affine({}, fmpq(5)), y=fmpq(2)) == []
+
+
+def test_the_largest_number_is_told_without_writing_the_lines() -> None:
+    # 5x = 8 + 2y and 5y = 72 + x, as above: 25y = 360 + 5x = 360 + 8 + 2y = 368 + 2y.
+    x, y = (
+        Affine({"x": fmpq(3, 8), "y": fmpq(1, 4)}, fmpq(1)),
+        Affine({"y": fmpq(3, 8), "x": fmpq(1, 8)}, fmpq(9)),
+    )
+    assert largest({"x": x, "y": y}) == 368
+    assert largest({"x": fmpq(500)}) == 0  # nothing is eliminated
