@@ -1,5 +1,6 @@
 """Values and policies of some rounds of policy iteration; or the reward up to which it ends at once."""
 
+from collections.abc import Iterator
 from typing import Annotated, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -111,20 +112,24 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
             return Rounds(mdp=mdp, start=policy, gamma=gamma, rounds=level)
 
 
-def _settles(mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int) -> bool:
-    """Whether the last of so many rounds changes nothing: the policy that it evaluates is an optimal one."""
-    before = policy = dict(start)
+def _improvements(
+    mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int
+) -> Iterator[tuple[dict[str, str], dict[tuple[str, str], Fraction], dict[str, str]]]:
+    """For every round the policy, what each action is worth with its values, and the policy that improvement gives."""
+    policy = dict(start)
     for _ in range(rounds):
         values = policy_values(mdp, deterministic(policy), gamma)
         ahead = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs}
-        before, policy = (
-            policy,
-            {
-                state: max(actions, key=lambda action: (ahead[state, action], action == policy[state]))
-                for state, actions in mdp.actions.items()
-            },
-        )
-    return before == policy
+        ranks = {pair: (found, policy[pair[0]] == pair[1]) for pair, found in ahead.items()}
+        better = {s: max(((s, a) for a in actions), key=ranks.__getitem__)[1] for s, actions in mdp.actions.items()}
+        yield policy, ahead, better
+        policy = better
+
+
+def _settles(mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int) -> bool:
+    """Whether the last of so many rounds changes nothing: the policy that it evaluates is an optimal one."""
+    *_, (before, _, after) = _improvements(mdp, start, gamma, rounds)
+    return before == after
 
 
 def _looks_ahead(mdp: Model, values: dict[str, Fraction], gamma: Fraction) -> bool:
@@ -199,15 +204,11 @@ def _ties(given: Rounds) -> bool:
     """Whether several actions are best in an improvement; where that takes long to find out, they may be."""
     if given.gamma == 1 or given.parameters() or len(given.mdp.states) > _TRIED:
         return True
-    policy = dict(given.start)
-    for _ in range(given.rounds):
-        values = policy_values(given.mdp, deterministic(policy), given.gamma)
-        for state, actions in given.mdp.actions.items():
-            ahead = {action: worth(given.mdp, (state, action), values, given.gamma) for action in actions}
-            policy[state] = max(ahead, key=ahead.__getitem__)
-            if [*ahead.values()].count(ahead[policy[state]]) > 1:
-                return True
-    return False
+    return any(
+        [ahead[state, action] for action in actions].count(ahead[state, better[state]]) > 1
+        for _, ahead, better in _improvements(given.mdp, dict(given.start), given.gamma, given.rounds)
+        for state, actions in given.mdp.actions.items()
+    )
 
 
 def _of_threshold(given: Threshold, blocks: tuple[Block, ...]) -> Question:
