@@ -74,7 +74,9 @@ def find_and_finish(
         else:
             work.say(f"It does not depend on ${sign}$, and was found above:")
         names = tuple(V(put_in_name(state)) for state in others)
-        work.lines.append(Result(names, tuple(found.values()), tuple(after[state] for state in others)))
+        work.lines.append(
+            Result(names, tuple(found.values()), tuple(after[state] for state in others), (given.letter, letter))
+        )
         work.answer(found)
 
 

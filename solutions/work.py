@@ -13,16 +13,16 @@ from rldrill.problems.mathematics import Math, listed, mathematics, name, punctu
 from rldrill.problems.notations import LECTURE, Writing, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
-from rldrill.solutions.formula.common_denominator import brackets_in_one_fraction, in_one_fraction
+from rldrill.solutions.exact import ZERO, NoSolution, Value, parameters, sign, simplest, tidy
+from rldrill.solutions.formula.collecting import collected_next
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
+from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.formula import Formula, Misconception
-from rldrill.solutions.formula.inverting import inverted
-from rldrill.solutions.formula.multiplying import entry_by_entry, multiplied_out
+from rldrill.solutions.formula.lines import lines_between
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.formula.putting_in import indexed, long_sum, put_in, reduced, term_by_term, without_slots
+from rldrill.solutions.formula.putting_in import indexed, put_in, without_slots
 from rldrill.solutions.formula.typesetting import alone, tabular, typeset, typeset_value, vector
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
@@ -93,15 +93,7 @@ class Step(_Applied):
         rights = [typeset(self.right)] if self.own else []
         rights.append(alone(written))
         if self.value is not None:  # an equation of a system has no value of its own
-            short = term_by_term(reduced(written)) if self.own else reduced(written)
-            without = inverted(short)
-            after = list(multiplied_out(without))
-            before = [] if after else multiplied_out(without_slots(written))
-            together = in_one_fraction(short)
-            brackets = short if together is None else brackets_in_one_fraction(short)
-            apart = (brackets, together, long_sum(short), entry_by_entry(short))
-            added = [each for each in apart if each is not None and each != short]
-            rights += [*map(alone, (*before, short, without, *after, *added)), shown_value(self.value)]
+            rights += [*map(alone, lines_between(written, own=self.own)), shown_value(self.value)]
         distinct = _without_detours(rights)
         left = typeset(self.left)
         if label := self._label():
@@ -168,20 +160,27 @@ class Drawn:
 class Result:
     """Values that a procedure gives together: the solution of a system, a table at its end.
 
-    ``before`` holds what was found of them before, where a letter was left open in it.
+    ``before`` holds what was found of them before, where a letter was left open in it, and ``found`` the letter and
+    the number that is put in for it.
     """
 
     lefts: tuple[Expr, ...]
     values: tuple[Any, ...]
     before: tuple[Any, ...] = ()
+    found: tuple[str, Value] | None = None
 
     def equations(self) -> tuple[Equation, ...]:
         """One line for every value."""
         return tuple(
             Equation(typeset(left), rights, ("=",) * len(rights))
-            for left, *values in zip(self.lefts, *([self.before] if self.before else []), self.values, strict=True)
-            for rights in [tuple(dict.fromkeys(map(shown_value, values)))]
+            for left, before, value in zip(self.lefts, self.before or self.values, self.values, strict=True)
+            for rights in [tuple(dict.fromkeys(map(_side, (before, *self._put_in(before), value))))]
         )
+
+    def _put_in(self, before: Any) -> Iterator[Expr]:
+        """What was found before, with the number in the place of the letter."""
+        if self.found and self.found[0] in parameters(before):
+            yield with_number([[before]], *self.found)
 
 
 @dataclass(frozen=True)
@@ -204,11 +203,19 @@ class Elimination:
     names: Mapping[Hashable, Expr]
     equations: Mapping[Hashable, Any]
     values: tuple[Any, ...]
+    steps: tuple[Step, ...] = ()
 
     def lines(self) -> "Iterator[Note | Equality]":
         """The lines of it."""
-        for line in elimination(self.names, self.equations):
+        terms = {key: _terms(step) for key, step in zip(self.names, self.steps, strict=False)}
+        for line in elimination(self.names, self.equations, terms):
             yield Note(line) if isinstance(line, str) else Equality(*line)
+
+
+def _terms(step: Step) -> tuple[Expr, ...]:
+    """An equation of a system multiplied out, where its terms are still to be collected."""
+    line = collected_next(without_slots(step.put_in))
+    return () if line is None else (line,)
 
 
 Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination
@@ -357,15 +364,20 @@ class Work:
             if instead is not None:
                 steps[-1] = Step(instead, other, {**known, unknown.code: fixed}, None, "=")
             self.lines += steps
-            self._write_solution({key: indexed(formula.left, case) for key, case in keys}, equations, solution)
+            names = {key: indexed(formula.left, case) for key, case in keys}
+            self._write_solution(names, equations, solution, steps[: len(keys) - (instead is not None)])
         return {**fixed, **solution}
 
     def _write_solution(
-        self, names: Mapping[Hashable, Expr], equations: Mapping[Hashable, Any], solution: Mapping[Hashable, Value]
+        self,
+        names: Mapping[Hashable, Expr],
+        equations: Mapping[Hashable, Any],
+        solution: Mapping[Hashable, Value],
+        steps: Sequence[Step],
     ) -> None:
         values = tuple(solution[key] for key in names)
         if len(names) <= MOST_UNKNOWNS:
-            self.lines.append(Elimination(names, equations, values))
+            self.lines.append(Elimination(names, equations, values, tuple(steps)))
         else:
             self.lines += (Note("Solving these equations:"), Result(tuple(names.values()), values))
 

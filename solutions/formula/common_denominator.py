@@ -3,11 +3,13 @@
 from functools import reduce
 from operator import add, mul
 
+import sympy
 from flint import fmpq
 from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.exact import is_rational, ordered, simplest, to_sympy
 from rldrill.solutions.formula.node import Node
+from rldrill.solutions.formula.nodes.leaves import MatrixLeaf
 from rldrill.solutions.formula.putting_in import evaluated
 from rldrill.solutions.rational import common_denominator, generator
 from rldrill.solutions.value import Value
@@ -34,16 +36,40 @@ def _below(values: list[Value]) -> Value | None:
 
 def brackets_in_one_fraction(expression: Expr) -> Expr:
     """A sum of products, with one fraction in place of every bracket that adds quotients in a letter."""
-    if not expression.is_Add:
-        return expression
-    return Add(*(_with_brackets_added(term) for term in expression.args), evaluate=False)
+    if expression.is_Add:
+        return Add(*(_with_brackets_added(term) for term in expression.args), evaluate=False)
+    numbers = _in_numbers(expression)
+    added = _with_brackets_added(numbers)
+    return _multiplied(expression) or (expression if added == numbers else added)
+
+
+def _in_numbers(product: Expr) -> Expr:
+    """A product with numbers in the place of its 1×1 matrices, if all of its matrices are so small."""
+    matrices = product.atoms(MatrixLeaf)
+    if not all(matrix.scalar for matrix in matrices):
+        return product
+    numbers = {matrix: matrix.args[0][0] for matrix in matrices}
+    return Mul._from_args([factor.xreplace(numbers) for factor in Mul.make_args(product)])
+
+
+def _multiplied(quotient: Expr) -> Expr | None:
+    """A quotient below whose line stands another, both sides of the line multiplied; None where that is not so."""
+    above, below = sympy.fraction(quotient, exact=True)
+    if not below.is_Add or below.is_polynomial() or in_one_fraction(below) is None:
+        return None
+    values = [_value(evaluated(part)) for part in (above, *below.args)]
+    factor = _below([value for value in values[1:] if value is not None])
+    if factor is None:
+        return None
+    top, *bottom = (_in_order(value * factor) for value in values if value is not None)
+    return Mul(top, Pow(Add(*bottom, evaluate=False), -1, evaluate=False), evaluate=False)
 
 
 def _with_brackets_added(term: Expr) -> Expr:
     if not term.is_Mul or not any(in_one_fraction(factor) for factor in term.args):
         return term
     factors = [_added(factor) if in_one_fraction(factor) else factor for factor in term.args]
-    return Mul(*factors, evaluate=False)
+    return Mul(*sorted(factors, key=lambda factor: not factor.is_Rational), evaluate=False)
 
 
 def _added(bracket: Expr) -> Expr:

@@ -1,8 +1,9 @@
 """A system of linear equations solved in front of the reader: one unknown after the other is put into the rest."""
 
 from collections import Counter
-from collections.abc import Callable, Generator, Hashable, Iterator, Mapping
+from collections.abc import Callable, Generator, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any
 
 import sympy
@@ -10,6 +11,7 @@ from sympy import Expr
 
 from rldrill.solutions.closed_forms import rational
 from rldrill.solutions.exact import ONE, Value, digits, is_rational, ordered, parameters, simplest, to_sympy
+from rldrill.solutions.formula.collecting import collected_next
 from rldrill.solutions.formula.common_denominator import in_one_fraction
 from rldrill.solutions.formula.equations import Affine
 from rldrill.solutions.formula.typesetting import typeset
@@ -22,14 +24,19 @@ _Multiple = tuple[Value, Affine]
 MOST_UNKNOWNS = 6
 
 
-def elimination(names: Mapping[Hashable, Expr], equations: Mapping[Hashable, Any]) -> Iterator[str | Sides]:
+def elimination(
+    names: Mapping[Hashable, Expr],
+    equations: Mapping[Hashable, Any],
+    terms: Mapping[Hashable, Sequence[Expr]] = MappingProxyType({}),
+) -> Iterator[str | Sides]:
     """The lines of the elimination: sentences, and equations with their right sides.
 
     Args:
         names: how each unknown is written.
         equations: for every unknown its right side, an ``Affine`` or a plain value.
+        terms: right sides that are multiplied out, but not collected yet, where there is such a line.
     """
-    return _eliminated(_Pen(names, _times, _sum, _added), equations)
+    return _eliminated(_Pen(names, _times, _sum, _added), equations, terms)
 
 
 def largest(equations: Mapping[Hashable, Any]) -> int:
@@ -48,12 +55,14 @@ class _Pen:
     added: Callable[[Any, Any], tuple[Any, ...]]
 
 
-def _eliminated(pen: _Pen, equations: Mapping[Hashable, Any]) -> Iterator[Any]:
+def _eliminated(
+    pen: _Pen, equations: Mapping[Hashable, Any], terms: Mapping[Hashable, Sequence[Expr]] = MappingProxyType({})
+) -> Iterator[Any]:
     open_ = {key: (ONE, _affine(side)) for key, side in equations.items()}
     if any(side.factors for _, side in open_.values()):
         yield "Multiplied out:"
         for key, (_, side) in open_.items():
-            yield pen.names[key], (_written(side, pen),)
+            yield pen.names[key], (*terms.get(key, ()), _written(side, pen))
         for key, equation in open_.items():
             if key in equation[1].factors and _others(key, equation):
                 open_[key] = yield from _collected(key, equation, pen)
@@ -114,11 +123,12 @@ def _put_in(
 
 
 def _added(put_in: Expr, value: Expr) -> tuple[Expr, ...]:
-    """A right side and its value; between them the common denominator, where quotients in a letter are added."""
+    """A right side and its value; between them what is collected, or quotients in a letter over one denominator."""
     together = in_one_fraction(put_in)
-    if together is None or typeset(together) == typeset(value):
+    between = collected_next(put_in) if together is None else together
+    if between is None or typeset(between) in map(typeset, (put_in, value)):
         return put_in, value
-    return put_in, together, value
+    return put_in, between, value
 
 
 def _divided(key: Hashable, equation: _Multiple, pen: _Pen) -> Generator[Sides, None, Affine]:

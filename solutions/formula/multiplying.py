@@ -6,12 +6,12 @@ import sympy
 from sympy import Add, Expr, Mul
 
 from rldrill.solutions.formula.node import Node
-from rldrill.solutions.formula.nodes.leaves import Factor, MatrixLeaf, VectorLeaf, leaf
+from rldrill.solutions.formula.nodes.leaves import Factor, MatrixLeaf, Negative, VectorLeaf, leaf
 from rldrill.solutions.formula.nodes.matrices import Blocks, Transposed
 from rldrill.solutions.formula.putting_in import evaluated, product_of, sum_of
 
-#: Sums of products are written out in so many entries; more do not fit into a line.
-_ENTRIES = 4
+#: Sums of matrices are written out entry by entry for so many entries; of products so many fit into a line.
+_ENTRIES, _PRODUCTS = 4, 6
 
 
 def multiplied_out(expression: Expr) -> Iterator[Expr]:
@@ -62,8 +62,7 @@ def _matrix(factor: Expr) -> sympy.ImmutableMatrix:
 def _sums(left: sympy.ImmutableMatrix, right: sympy.ImmutableMatrix) -> Expr | None:
     """Every entry of a product as the sum that it is; nothing where no entry is one, or where it is too much."""
     rows, columns = left.rows, right.cols
-    wide = rows > 1 and columns > 1 and not all(entry.is_Rational for entry in (*left, *right))
-    if rows * columns > _ENTRIES or wide:
+    if rows > 1 and columns > 1 and any(entry.is_Add for entry in (*left, *right)):
         return None
     entries = [
         [
@@ -74,6 +73,8 @@ def _sums(left: sympy.ImmutableMatrix, right: sympy.ImmutableMatrix) -> Expr | N
         for i in range(rows)
         for j in range(columns)
     ]
+    if columns * max(map(len, entries)) > _PRODUCTS:
+        return None
     trivial = max(map(len, entries)) < 2 and all(entry.is_Rational for entry in (*left, *right))
     if trivial and len(entries) > 1:
         return None
@@ -138,7 +139,7 @@ def entry_by_entry(expression: Expr) -> Expr | None:
 
 def _further(entry: Expr) -> Expr:
     """A term of a sum behind its first, with its sign before it."""
-    negative = entry.is_Rational and entry < 0
+    negative = isinstance(leaf(entry), Negative)
     return Mul._from_args([sympy.S.NegativeOne, leaf(-entry)]) if negative else leaf(entry)
 
 

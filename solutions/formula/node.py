@@ -92,6 +92,10 @@ class Node(Expr):
     def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
         return self.symbolic(*map(evaluated, self.args))
 
+    def _plain(self, plain: Callable[[Expr], Expr]) -> Expr:  # noqa: ARG002
+        """The step with numbers in place of the sines and powers of e that are plain."""
+        return self
+
     def _reduced(self, worked_out: Callable[[Expr], Expr]) -> Expr:  # noqa: ARG002
         """The step with inner brackets worked out."""
         return self

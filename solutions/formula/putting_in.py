@@ -259,7 +259,8 @@ def _numbers_first(expression: Expr) -> Expr:
         return Add(*map(_numbers_first, expression.args), evaluate=False)
     if not expression.is_Mul:
         return expression
-    all_factors = _flat(Mul, expression.args)  # α·5α is 5α²
+    in_brackets = (factor.args[0] if isinstance(factor, Negative) else factor for factor in expression.args)
+    all_factors = _flat(Mul, in_brackets)  # α·5α is 5α²
     numbers = [factor for factor in all_factors if factor.is_number]
     letters = [factor for factor in all_factors if _is_letter(factor.args[0] if factor.is_Pow else factor)]
     if not numbers or not letters or len(numbers) + len(letters) < len(all_factors):
@@ -284,7 +285,9 @@ def _plain_powers(expression: Expr) -> Expr:
         if not value.is_algebraic:
             return expression
         return Factor(value) if value.is_Mul and not value.could_extract_minus_sign() else computed(value)
-    if isinstance(expression, Node) or not expression.has(sympy.exp, *_ANGULAR):
+    if isinstance(expression, Node):
+        return expression._plain(_plain_powers)
+    if not expression.has(sympy.exp, *_ANGULAR):
         return expression
     arguments = map(_plain_powers, expression.args)
     if expression.is_Add:
@@ -335,7 +338,9 @@ def _inner(term: Expr) -> Expr:
         if sign == -1 and len(rest) == 1 and rest[0].is_Add and any(map(_of_matrices, rest[0].args)):
             terms = [_term(part) if _of_matrices(part) else _worked_out(part) for part in rest[0].args]
             return Mul(-1, Add(*terms, evaluate=False), evaluate=False)
-        factors = _without_ones([_in_a_product(_inner(factor)) for factor in term.args])
+        worked_out = [(factor, _inner(factor)) for factor in term.args]
+        kept = [_in_a_product(new) for old, new in worked_out if not (new == 1 and _is_reciprocal(old))]
+        factors = _without_ones(kept)
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
         return Mul._from_args(factors)
@@ -347,6 +352,10 @@ def _inner(term: Expr) -> Expr:
         base = _worked_out(term.args[0])
         return base if base == 1 else Pow(base, term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
+
+
+def _is_reciprocal(factor: Expr) -> bool:
+    return bool(factor.is_Pow and factor.args[1] == -1)
 
 
 def _in_a_product(factor: Expr) -> Expr:

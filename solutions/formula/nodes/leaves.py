@@ -137,4 +137,4 @@ def computed(value: Any) -> Expr:
     if isinstance(value, sympy.MatrixBase):
         return MatrixLeaf(value)
     first = value.args[0] if value.is_Mul else value  # −ln 4 needs brackets as −4 does
-    return Negative(value) if first.is_Number and first.is_negative and not value.free_symbols else value
+    return Negative(value) if first.is_Number and first.is_negative else value

@@ -67,6 +67,10 @@ class Blocks(Node):
         numbers = any(isinstance(block, MatrixLeaf) for block in written.args)
         return computed(evaluated(written)) if numbers else written  # blocks of numbers are one matrix at once
 
+    def _plain(self, plain: Callable[[Expr], Expr]) -> Expr:
+        rows, *blocks = self.args
+        return Blocks(int(rows), *map(plain, blocks))
+
     def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
         lines = self._lines(evaluated)
         heights = [max(getattr(block, "rows", 1) for block in line) for line in lines]

@@ -1,0 +1,60 @@
+"""Brackets within brackets: where a bracket holds several, they are worked out first, on a line of their own."""
+
+from collections.abc import Iterator
+
+from sympy import Add, Expr, Mul, Pow
+
+from rldrill.solutions.formula.node import Node
+from rldrill.solutions.formula.nodes.choices import Choice
+from rldrill.solutions.formula.nodes.leaves import computed
+from rldrill.solutions.formula.nodes.sets import MaxOf
+from rldrill.solutions.formula.putting_in import evaluated, reduced
+
+#: So many brackets within one are not worked out in the same line as the one around them.
+_SEVERAL = 2
+
+
+def inner_brackets_first(expression: Expr) -> Iterator[Expr]:
+    """The step with the brackets inside its brackets worked out, where there is such a line to write."""
+    line = _inside(expression)
+    if line != expression:
+        yield line
+
+
+def _inside(expression: Expr) -> Expr:
+    if isinstance(expression, Choice):
+        return expression.func(*(reduced(value) if isinstance(value, MaxOf) else value for value in expression.args))
+    if isinstance(expression, Node) or not expression.args:
+        return expression
+    if expression.is_Add:
+        return Add._from_args([_inside(term) for term in expression.args])
+    return Mul._from_args(list(map(_outer, expression.args))) if expression.is_Mul else _outer(expression)
+
+
+def _outer(factor: Expr) -> Expr:
+    """A bracket, or one below a line or under a root, with the brackets in it worked out where there are several."""
+    if factor.is_Pow:
+        return Pow(_outer(factor.args[0]), factor.args[1], evaluate=False)
+    if not factor.is_Add or sum(map(_holds_bracket, factor.args)) < _SEVERAL:
+        return factor
+    return Add._from_args([_worked_out(term) for term in factor.args])
+
+
+def _holds_bracket(term: Expr) -> bool:
+    return any(map(_is_bracket, Mul.make_args(term)))
+
+
+def _is_bracket(factor: Expr) -> bool:
+    """Whether it is a sum of rational numbers, or a power of one."""
+    body = factor.args[0] if factor.is_Pow else factor
+    return body.is_Add and not isinstance(body, Node) and not body.free_symbols and bool(evaluated(body).is_Rational)
+
+
+def _worked_out(term: Expr) -> Expr:
+    return Mul._from_args([_number(factor) if _is_bracket(factor) else factor for factor in Mul.make_args(term)])
+
+
+def _number(factor: Expr) -> Expr:
+    if factor.is_Pow:
+        return Pow(computed(evaluated(factor.args[0])), factor.args[1], evaluate=False)
+    return computed(evaluated(factor))
