@@ -377,6 +377,8 @@ def draw(family: str, level: int = 1, seed: int = 0) -> Exercise:
     """
     if not isinstance(family, str):
         raise _refused("family", "the name of a family such as 'td-zero'", family)
+    if looks_like_id(family):
+        raise UsageError(f"{family!r} is the ID of a problem, no family; rldrill.load({family!r}) gives that problem.")
     return Exercise(drawing.draw(family, _whole("level", level), _whole("seed", seed)))
 
 

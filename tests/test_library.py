@@ -111,6 +111,7 @@ def test_lists_and_tables_are_answers() -> None:
         (lambda e: e.grade("1/4"), "answers must be a dictionary"),
         (lambda _: rldrill.draw(7), "family must be the name of a family such as 'td-zero', not 7."),
         (lambda _: rldrill.draw("td-zer"), "did you mean 'td-zero'"),
+        (lambda _: rldrill.draw("td-zero/2/7"), "rldrill.load('td-zero/2/7') gives that problem."),
         (lambda _: rldrill.draw("td-zero", level="2"), "level must be a whole number, not '2'."),
         (lambda _: rldrill.draw("td-zero", level=4), "td-zero has no level 4; it has 1, 2, 3."),
         (lambda _: rldrill.draw("td-zero", seed=-1), "The seed -1 is out of range"),
