@@ -183,12 +183,15 @@ def linear(value: Value, parameter: str) -> tuple[Value, Value]:
 
 
 def without_quotients(left: Value, right: Value, parameter: str) -> tuple[Value, Value] | None:
-    """Both sides of an equation multiplied by their common denominator, in whole numbers.
+    """Both sides of an equation multiplied by their common denominator, in whole numbers; equal numerators dropped.
 
     None, where the parameter is in no denominator, or where the sides are then not linear in it.
     """
     if all(lifted(side, parameter).bottom.degree() == 0 for side in (left, right)):
         return None
+    below = [common_denominator((side,)) for side in (left, right)]
+    if below[0] is not None and below[1] is not None and left * below[0] == right * below[1] != 0:
+        return below[0], below[1]  # a/x = a/7 where x = 7
     factor = common_denominator((left, right))
     if factor is None:
         return None

@@ -18,5 +18,6 @@ def with_number(lines: Sequence[Sequence[Value]], letter: str, number: Value) ->
 
 
 def _entry(value: Expr, letter: str, number: Value) -> Expr:
-    above, below = (put_in(ordered(sympy.expand(part)), {letter: number}) for part in sympy.fraction(value))
-    return above if below == 1 else Mul(above, Pow(below, -1, evaluate=False), evaluate=False)
+    parts = (value,) if sympy.fraction(value)[1].is_number else sympy.fraction(value)
+    above, *below = (put_in(ordered(sympy.expand(part)), {letter: number}) for part in parts)
+    return Mul(above, Pow(*below, -1, evaluate=False), evaluate=False) if below else above

@@ -340,7 +340,7 @@ def _inner(term: Expr) -> Expr:
             return Mul(-1, Add(*terms, evaluate=False), evaluate=False)
         worked_out = [(factor, _inner(factor)) for factor in term.args]
         kept = [_in_a_product(new) for old, new in worked_out if not (new == 1 and _is_reciprocal(old))]
-        factors = _without_ones(kept)
+        factors = _without_ones(_worked_out_above(kept) if kept != list(term.args) else kept)
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
         return Mul._from_args(factors)
@@ -352,6 +352,19 @@ def _inner(term: Expr) -> Expr:
         base = _worked_out(term.args[0])
         return base if base == 1 else Pow(base, term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
+
+
+def _worked_out_above(factors: list[Expr]) -> list[Expr]:
+    """The factors of a quotient of numbers; where what is below the line is worked out, so is the product above it."""
+    below = [factor for factor in factors if _is_reciprocal(factor)]
+    above = [factor for factor in factors if factor != -1 and not _is_reciprocal(factor)]
+    if not below or len(above) < 2 or not all(_is_rational(factor) for factor in factors):
+        return factors
+    return [*factors[: factors[0] == -1], computed(evaluated(Mul(*above, evaluate=False))), *below]
+
+
+def _is_rational(factor: Expr) -> bool:
+    return factor.is_commutative is not False and bool(evaluated(factor).is_Rational)
 
 
 def _is_reciprocal(factor: Expr) -> bool:

@@ -2,10 +2,12 @@
 
 import pytest
 import sympy
+from flint import fmpq
 from sympy import Add, Expr, Mul, Pow, Rational, sqrt
 
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.formula.collecting import collected_next
+from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.lines import lines_between
 from rldrill.solutions.formula.nested import inner_brackets_first
 from rldrill.solutions.formula.nodes.choices import Greatest
@@ -13,6 +15,7 @@ from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, leaf
 from rldrill.solutions.formula.nodes.matrices import Blocks
 from rldrill.solutions.formula.nodes.sets import MaxOf
 from rldrill.solutions.formula.typesetting import alone
+from rldrill.solutions.rational import generator, without_quotients
 
 P = sympy.Symbol("p")
 HALF = Rational(1, 2)
@@ -137,3 +140,24 @@ def test_a_quotient_in_a_quotient_is_multiplied_above_and_below() -> None:
 def test_one_over_one_is_no_factor() -> None:
     step = times(5, power(total(leaf(1)), -1))
     assert "5·1" not in map(shown, lines_between(step, own=False))
+
+
+def test_above_the_line_a_product_is_worked_out_where_below_it_a_sum_is() -> None:
+    # 1/4·7/8 = 7/32, 1/4·7/8 + 1/2·1/8 = 9/32
+    quarter, share = Rational(1, 4), Rational(7, 8)
+    evidence = total(times(quarter, share), times(HALF, Rational(1, 8)))
+    step = times(quarter, share, power(evidence, -1))
+    assert "(7/32)/(9/32)" in map(shown, lines_between(step, own=False))
+    assert "−40/8" in map(shown, lines_between(times(-1, total(16, 24), power(times(2, 4), -1)), own=False))
+
+
+def test_a_number_that_was_found_is_put_in_where_its_letter_stands() -> None:
+    q = generator("q")
+    assert shown(with_number([[fmpq(1, 4) * q]], "q", fmpq(3, 4))) == "1/4·3/4"
+    assert shown(with_number([[fmpq(12) / (12 + q)]], "q", fmpq(4))) == "12/(12 + 4)"
+
+
+def test_of_quotients_with_one_numerator_the_denominators_are_equal() -> None:
+    rho = generator("rho")
+    assert without_quotients(fmpq(-26) / (5 + rho), fmpq(-26, 7), "rho") == (5 + rho, 7)
+    assert without_quotients(fmpq(2) / (2 + 3 * rho), fmpq(4, 5), "rho") == (10, 8 + 12 * rho)
