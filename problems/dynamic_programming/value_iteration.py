@@ -163,7 +163,9 @@ def question(given: Given) -> Question:
 
 def _of_actions(given: Given) -> Question:
     k = given.sweeps
-    start = "Value iteration goes over the action values, and starts from $Q_0(s, a) = 0$ for all states and actions."
+    start = (
+        "Value iteration is done on the action values $Q$. It starts from $Q_0(s, a) = 0$ for all states and actions."
+    )
     blocks = (*model_blocks(given.mdp), Paragraph(start), Paragraph(f"{discount(given.gamma)} {SYNCHRONOUS}"))
     ask = f"What is $Q_{{{k}}}(s, a)$, the value of every state and action after {counted(k)}?"
     greedy = f"Which action $π(s)$ is greedy for $Q_{{{k}}}$ in every state?"
