@@ -173,7 +173,7 @@ def draw(level: int, rng: Draws) -> Given:
     chances = dict(zip(nows, rows, strict=False))  # the present state matters
     given_history = {history: chances[history[1]] for history in histories}
     for now in matters:
-        given_history[rng.choice(befores), now] = rng.choice([row for row in rows if row != chances[now]])
+        given_history[rng.choice(befores), now] = rng.choice(rows[len(nows) :])
     table = tuple(
         Seen(*history, after, chance * totals[history])
         for history in histories

@@ -77,7 +77,7 @@ def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) ->
 
 def _rounded(bound: Value) -> str:
     """A fraction as a decimal, to be compared; nothing for a whole number."""
-    return "" if bound.q == 1 else f"about ${decimal(bound, 4)}$, "
+    return f"about ${decimal(bound, 4)}$, " if "/" in text_of(bound) else ""
 
 
 def _power(gamma: Value, k: int) -> str:

@@ -71,8 +71,8 @@ def oracle(given: Given) -> Answers:
     """The rewards one by one, until what is left is too small to count."""
     if given.known is not None:
         number = _found(given)
-        tail = oracle(with_letter(given, Fraction(number).limit_denominator(10**6)))[:-1]
-        return (number, *tail) if given.letter == "gamma" else (*tail, number)
+        later = oracle(with_letter(given, Fraction(number).limit_denominator(10**6)))[:-1]
+        return (number, *later) if given.letter == "gamma" else (*later, number)
     gamma = at(given.gamma)
     enough = 1 if gamma == 0 else int(min(2_000_000, -36 / np.log(gamma)))  # γ to that power is below 1e-15
     repeated = np.resize([at(reward) for reward in given.repeated], enough)
