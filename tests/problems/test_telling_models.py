@@ -79,3 +79,21 @@ def test_the_inequality_of_the_improvement_theorem_fails_in_one_state_at_most() 
         assert sum(gap < 0 for gap in gaps) <= 1
         verdicts[all(gap >= 0 for gap in gaps)] += 1
     assert 70 < verdicts[True] < 130
+
+
+def test_the_reward_that_a_value_after_two_sweeps_shows_is_not_printed_elsewhere() -> None:
+    sought = [given for given in drawn("value-iteration", (3,)) if hasattr(given, "outcome")]
+    assert 30 < len(sought) < 50  # the others ask for a discount
+    for given in sought:
+        (state, value), row = next(iter(given.outcome.items())), given.row
+        assert row.next not in given.mdp.terminal  # or γ and V₀ would play no part
+        ways = [each for each in given.mdp.transitions if (each.state, each.next) == (state, row.state)]
+        first = min((value - each.reward) / given.gamma for each in ways)  # all moves are certain
+        reward = first - given.gamma * given.start[row.next]
+        assert reward not in {each.reward for each in given.mdp.transitions if each is not row}
+
+
+def test_traces_that_are_asked_for_in_a_letter_add_up() -> None:
+    for given in drawn("eligibility-trace", (3,)):
+        assert not given.replacing
+        assert len(set(given.states)) < len(given.states)
