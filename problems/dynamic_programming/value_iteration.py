@@ -1,5 +1,6 @@
 """Values after some sweeps of value iteration, and the greedy policy; or a reward, from a value after two sweeps."""
 
+from itertools import product
 from typing import Annotated, ClassVar, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -186,10 +187,9 @@ def _to_outcome(rng: Draws, setting: Setting) -> Sought:
     later, after = _best_moves(mdp, values, gamma)
     rewards = [row.reward for row in mdp.transitions]
     seen = [
-        (row, state)
-        for row in moves
-        for state in {move.state for move in later if move.next == row.state} - {row.state}
-        if row.next in start and rewards.count(row.reward) == 1
+        (row, move.state)
+        for row, move in product(moves, later)
+        if move.next == row.state != move.state and row.next in start and rewards.count(row.reward) == 1
     ]
     if not seen:
         return _to_outcome(rng, setting)

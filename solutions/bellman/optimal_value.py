@@ -113,7 +113,7 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     work.answer(best.among(greedy))
     Q = {(s, a): work.value(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs}
     work.recall(Q_STAR_FROM_V)
-    work.say("These are the numbers of which the optimality equation takes the greatest, so they stand above:")
+    work.say("These are the numbers in the maxima of part (a):")
     work.lines.append(Result(tuple(Qstar(*map(put_in_name, pair)) for pair in Q), tuple(Q.values())))
     work.answer(Q)
 

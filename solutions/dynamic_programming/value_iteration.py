@@ -78,7 +78,8 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     target = exact(given.outcome[state])
     value, _ = reached(work, ahead_of(1), Known("V_2", state, target, "V_1", row.state), first, chosen, **known)
     first[row.state] = work.answer(value)
-    reward, _ = rewarded(work, ahead_of(0), row, "V_1", first[row.state], start, **known)
+    certain = first[row.state] == value
+    reward, _ = rewarded(work, ahead_of(0), row, "V_1", first[row.state], start, demanding=certain, **known)
     known["R"] = {**known["R"], row[:3]: work.answer(reward)}
     work.say("Sweep 2:")
     second = first | {state: target}
