@@ -7,9 +7,8 @@ from typing import Any
 
 from sympy import Pow, evaluate
 
-from rldrill.problems.mathematics import Big, Fence, Math, Script, relation, row, variable
+from rldrill.problems.mathematics import Fence, Script, variable
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
-from rldrill.solutions.formula.node import Typeset
 from rldrill.solutions.formula.notation import (
     DOTS,
     INFINITY,
@@ -48,14 +47,6 @@ Vn = quantity("Vn", subscripted("V"))
 w = quantity("w", subscripted("w"))
 #: The return after a visit that has no time.
 observed = letter("observed", "R")
-
-
-class SumOverVisits(SumOver):
-    """Σ over the times that belong to the visits of a state, which are named below it."""
-
-    def _typeset(self, typeset: Typeset) -> Math:
-        below = row(typeset(self.index), relation("∈"), typeset(self.domain))
-        return row(Big(self.sign, below), self._written_body(typeset))
 
 
 def _given(letter: str) -> Callable[[Any], bool]:
@@ -361,7 +352,7 @@ with evaluate(False):
     BATCH_MONTE_CARLO = Formula(
         "batch-monte-carlo",
         V(s),
-        Pow(N(s), -1) * SumOverVisits(G(t), t, Visits(s)),
+        Pow(N(s), -1) * SumOver(G(t), t, Visits(s)),
         title="Batch Monte Carlo",
         source="Sutton & Barto 2018, section 6.3",
         hint="Average the returns that were seen after all visits of the state.",
@@ -370,7 +361,7 @@ with evaluate(False):
     BATCH_TD = Formula(
         "batch-td",
         V(s),
-        Pow(N(s), -1) * SumOverVisits(r(t + 1) + gamma * V(S(t + 1)), t, Visits(s)),
+        Pow(N(s), -1) * SumOver(r(t + 1) + gamma * V(S(t + 1)), t, Visits(s)),
         title="Batch TD(0)",
         source="Sutton & Barto 2018, section 6.3",
         hint="Average the one-step targets after all visits of the state; begin with states that only lead to the end.",
