@@ -32,11 +32,11 @@ from rldrill.solutions.oracle import (
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, terminal_value
 from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import (
-    BELLMAN_OPTIMALITY_V,
     BELLMAN_V,
     OWN_VALUE,
     Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
+    V_STAR_FROM_Q,
 )
 from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, of_round
 from rldrill.solutions.work import Result, Work
@@ -95,9 +95,13 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
         last = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)))
-        values = _held_against_the_equation(given, work, last)
+        values, of = last.values, f"$π_{{{last.number}}}$"
+        work.say(f"Is another action better than that of {of}? Its values are put into the optimality equation:")
+        Q = _worths(given, work, values)
+        work.say(f"The greatest values are those of {of} again, so no action is better: they are optimal.")
     else:
         values = _of_the_best(given, work, best, evaluation)
+        Q = _worths(given, work, values)
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     if best.unlike_sweeps:
         work.say(
@@ -105,17 +109,26 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
                 *best.unlike_sweeps
             )
         )
-    values |= work.answer(of_states(mdp, values))
-    greedy = {state: work.value(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
+    own = values | work.answer(of_states(mdp, values))
+    greedy = {state: work.value(GREEDY_FROM_V, s=state, V=own, **known) for state in mdp.states}
     told = joined([f"{joined(list(actions))} in {state}" for state, actions in greedy.items()])
     work.say(f"The maxima of the optimality equation are reached by {told}.")
     best.tell(work)
     work.answer(best.among(greedy))
-    Q = {(s, a): work.value(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs}
-    work.recall(Q_STAR_FROM_V)
-    work.say("These are the numbers in the maxima of part (a):")
+    work.say("These values stand in part (a):")
     work.lines.append(Result(tuple(Qstar(*map(put_in_name, pair)) for pair in Q), tuple(Q.values())))
+    if own != values:  # whoever has other values goes on with them
+        Q = {(s, a): work.value(Q_STAR_FROM_V, s=s, a=a, V=own, **known) for s, a in mdp.pairs}
     work.answer(Q)
+
+
+def _worths(given: Optimal, work: Work, values: Mapping[str, Value]) -> dict[tuple[str, str], Value]:
+    """The optimality equation in two steps: what every action is worth, and the greatest of it."""
+    mdp, gamma = given.mdp, exact(given.gamma)
+    Q = {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **knowns.model(mdp), gamma=gamma) for s, a in mdp.pairs}
+    for state in mdp.states:
+        work.step(V_STAR_FROM_Q, s=state, Q=Q, actions=mdp.actions)
+    return Q
 
 
 class _Last(NamedTuple):
@@ -145,16 +158,6 @@ def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> _Last:
         work.say(f"This changes the policy, so $π_{{{number}}}$ is evaluated: {_told(policy)}.")
 
 
-def _held_against_the_equation(given: Optimal, work: Work, last: _Last) -> dict[str, Value]:
-    """The values of the last policy, put into the optimality equation."""
-    mdp, of = given.mdp, f"$π_{{{last.number}}}$"
-    work.say(f"Is another action better than that of {of}? Its values are put into the optimality equation:")
-    for state in mdp.states:
-        work.step(BELLMAN_OPTIMALITY_V, s=state, V=last.values, **knowns.model(mdp), gamma=exact(given.gamma))
-    work.say(f"The greatest values are those of {of} again, so no action is better: they are optimal.")
-    return last.values
-
-
 def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:
     """The values of the policy with which policy iteration ends."""
     mdp, policy = given.mdp, best.policy
@@ -166,8 +169,6 @@ def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluati
         else ""
     )
     work.say(f"{endless}Put into the optimality equation, no other action is better, so these are the optimal values:")
-    for state in mdp.states:
-        work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **knowns.model(mdp), gamma=exact(given.gamma))
     return values
 
 
