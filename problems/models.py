@@ -502,6 +502,13 @@ def state_diagram(model: Model) -> StateDiagram:
     )
 
 
+def outcomes_blocks(dynamics: Dynamics) -> tuple[Block, ...]:
+    """What the actions of one state do, as a question gives it."""
+    (state,), actions = dynamics.states, [action for _, action in dynamics.pairs]
+    told = f"action {actions[0]} has" if len(actions) == 1 else "actions have"
+    return (Paragraph(f"In state {state} the {told} these outcomes:"), transitions_table(dynamics))
+
+
 def values_table(values: Mapping[str, Scalar], of: str = "V") -> Table:
     """A table of values, one column for every state."""
     return Table(

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Dynamics, Lookahead, Transition, draw_letter, transitions_table, values_table
+from rldrill.problems.models import Dynamics, Lookahead, Transition, draw_letter, outcomes_blocks, values_table
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open, unknown
 from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting, draw_targets
@@ -111,8 +111,7 @@ def question(given: Given) -> Question:
     what = f" {unknown(given.unknown[0])}" if given.find else ""
     rate = "" if given.find and given.unknown == ("gamma",) else f" {discount(given.gamma)}"
     blocks = (
-        Paragraph(f"In state {state} the actions have these outcomes:"),
-        transitions_table(given.dynamics),
+        *outcomes_blocks(given.dynamics),
         Paragraph(f"The values of the states under a policy $π$ are known.{rate}{what}"),
         values_table(given.values, "V^π"),
     )

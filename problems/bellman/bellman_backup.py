@@ -16,8 +16,8 @@ from rldrill.problems.models import (
     Transition,
     check_policy,
     draw_letter,
+    outcomes_blocks,
     policy_table,
-    transitions_table,
     values_table,
 )
 from rldrill.problems.parts import Number, Part
@@ -124,7 +124,7 @@ def question(given: Given) -> Question:
         part = Part(f"What is ${sign}$?", Number())
     else:
         told = (
-            "Policy evaluation has come to these values $V_0$."
+            "Policy evaluation starts from these values $V_0$."
             if given.current
             else "The values of the next states under the policy are known."
         )
@@ -132,8 +132,7 @@ def question(given: Given) -> Question:
         of, after = ("V_1", ", the value after one Bellman backup") if given.current else ("V^π", "")
         part = Part(f'What is ${of}("{state}")${after}{in_open(given)}?', Number())
     blocks = (
-        Paragraph(f"In state {state} the actions have these outcomes:"),
-        transitions_table(given.dynamics),
+        *outcomes_blocks(given.dynamics),
         Paragraph("The policy $π$ takes them with these probabilities:"),
         policy_table(given.policy),
         Paragraph(told),

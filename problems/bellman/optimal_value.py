@@ -27,7 +27,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 6
+REVISION = 7
 
 
 class Optimal(Givens):
@@ -159,7 +159,7 @@ def _of_all(given: Optimal, blocks: tuple[Block, ...]) -> Question:
 
 
 def _of_reward(given: Sought, blocks: tuple[Block, ...]) -> Question:
-    """One optimal value is known; the other one, the reward and a best action are asked for."""
+    """One optimal value is known; the other one, the reward, and the smallest one that decides are asked for."""
     x, state, row = shown(Parameter(given.row.reward)), given.state, given.row
     leading = f" when it leads to {row.next}" if len(given.mdp.outcomes[row.state, row.action]) > 1 else ""
     told = (
@@ -171,9 +171,6 @@ def _of_reward(given: Sought, blocks: tuple[Block, ...]) -> Question:
         (
             Part(f'What is $V^*("{row.state}")$?', Number()),
             Part(f"What is ${x}$?", Number(), zero=True),
-            Part(
-                f'Which action $π^*("{state}")$ is best in {state}?', Policy({state: given.mdp.actions[state]}, "π^*")
-            ),
             Part(
                 f'Now let ${x}$ be any number, so that $V^*("{state}")$ need not be ${shown(given.optimum[state])}$. '
                 f"What is the smallest ${x}$ with which {row.action} is a best action in {row.state}?",

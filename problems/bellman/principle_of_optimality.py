@@ -1,7 +1,9 @@
 """The best paths of a small graph without chance: from the start, and from every state on the way."""
 
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -17,7 +19,7 @@ from rldrill.problems.settings import maps
 
 TITLE = "Principle of optimality"
 SOURCE = "Bertsekas 2017, sections 1.3 and 2.1"
-REVISION = 2
+REVISION = 3
 
 
 class Edge(NamedTuple):
@@ -100,20 +102,44 @@ _SIZES = {1: (3, 2), 2: (4, 3), 3: (4, 4)}
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Three states before the goal; then four; then more edges, and a path that must go through a state."""
+    """Three states before the goal; then four; then more edges, and a path that must go through a state.
+
+    The best path leaves out one state at most, and somewhere on it another edge earns more at once. A state that a
+    path must go through is the one left out, and there are several ways to it.
+    """
     place = rng.choice(maps())
     count, more = _SIZES[level]
     names = (*place.states[:count], place.terminal)
-    bait = 1 + rng.below(2)  # good to go to, bad to go on from: the greedy path is not the best one
+    left_out = rng.choice((2, 3)) if level == 3 else rng.below(count)  # the start never is: then none is
+    path = [state for state in range(count + 1) if not state or state != left_out]
     farther = [(here, after) for here in range(count) for after in range(here + 2, count + 1)]
-    ways = sorted([*((here, here + 1) for here in range(count)), *rng.sample(farther, more)])
-    edges = tuple(
-        Edge(names[here], names[after], rng.whole(-2, 5) + 4 * (after == bait) - 8 * (here == bait))
-        for here, after in ways
-    )
+    needed = {*pairwise(path)} & {*farther}
+    if level == 3:
+        needed.add(rng.choice([edge for edge in farther if edge[1] <= left_out]))
+    others = [edge for edge in farther if edge not in needed]
+    ways = sorted([*pairwise(range(count + 1)), *needed, *rng.sample(others, more - len(needed))])
+    best = dict(pairwise(path))
+    for here, after in rng.shuffled(ways):
+        best.setdefault(here, after)
     return Given(
-        edges=edges, start=names[0], goal=place.terminal, through=names[bait] if level == 3 else None, story=place.story
+        edges=tuple(Edge(names[here], names[after], reward) for here, after, reward in _paid(rng, ways, path, best)),
+        start=names[0],
+        goal=place.terminal,
+        through=names[left_out] if level == 3 else None,
+        story=place.story,
     )
+
+
+def _paid(
+    rng: Draws, ways: Sequence[tuple[int, int]], path: Sequence[int], best: Mapping[int, int]
+) -> Iterator[tuple[int, int, Fraction]]:
+    """What the edges earn, so that these are the best next states; on the path another earns more at once."""
+    values = [*rng.integers(len(best) + 1, -4, 5)]
+    here, after = bait = rng.choice([(here, after) for here, after in ways if here in path and after != best[here]])
+    values[after] = values[best[here]] - 2 - rng.below(3)
+    for here, after in ways:
+        lost = 0 if best[here] == after else 1 if (here, after) == bait else 1 + rng.below(3)
+        yield here, after, Fraction(values[here] - values[after] - lost)
 
 
 def question(given: Given) -> Question:

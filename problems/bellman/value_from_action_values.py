@@ -144,7 +144,13 @@ def question(given: Given) -> Question:
 
 def _found(given: Given, blocks: list[Block]) -> Question:
     sign = shown(Parameter(given.unknown[0]))
-    told = f"The table holds $Q^π$, the action values of this policy. The number ${sign}$ is not known."
+    chosen = any(isinstance(chance, Parameter) for row in given.policy.values() for chance in row.values())
+    hidden = (
+        f"The probability ${sign}$ is not known, $0 < {sign} < 1$."
+        if chosen
+        else f"The action value ${sign}$ is not known."
+    )
+    told = f"The table holds $Q^π$, the action values of this policy. {hidden}"
     if given.known is None:
         first, second = given.values
         ask = f'For which ${sign}$ is $V^π("{first}") = V^π("{second}")$?'

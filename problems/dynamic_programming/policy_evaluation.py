@@ -26,7 +26,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 8
+REVISION = 9
 
 
 class Given(ModelAndPolicy, Sweeps):
@@ -42,16 +42,16 @@ class Given(ModelAndPolicy, Sweeps):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One sweep from given values; then two from zero, or one with more; then γ or the policy left open.
+    """One synchronous sweep from given values; then three states in place, or two sweeps; then γ or π left open.
 
     Rewards are even, and values to start from multiples of what the discount makes whole: so the numbers stay small.
     """
     setting = draw_setting(rng)
     started = level == 1 or (level == 2 and rng.chance(Fraction(1, 2)))
-    states = 2 if level == 1 else 2 + rng.below(2)
+    states = 2 if level == 1 else 3 if started else 2 + rng.below(2)
     alone = level > 1 and rng.chance(Fraction(1, 3))
     gamma = rng.fraction("1/2", "4/5") if started else Fraction(1, 2)
-    in_place = rng.chance(Fraction(1, 2)) and (started or (level == 3 and states == 2))
+    in_place = (level == 2 and started) or (level == 3 and states == 2 and rng.chance(Fraction(1, 2)))
     sure = level == 1 or (not alone and (states == 3 or (in_place and not started)))
     shape = Shape(states=states, actions=2, branches=1 if sure else 2, denominators=(2,))
     start = draw_values(rng, setting.states[:states], gamma)

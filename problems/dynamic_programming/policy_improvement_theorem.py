@@ -1,7 +1,7 @@
 """The worth of one step of another policy, and whether the policy improvement theorem applies to it."""
 
 from collections.abc import Sequence
-from typing import Literal, Self
+from typing import Self
 
 from pydantic import Field, model_validator
 
@@ -18,13 +18,14 @@ from rldrill.problems.valued import (
     UNITS,
     check_policy_values,
     deterministic,
-    draw_valued,
+    draw_values,
+    draw_worth,
     known_or_asked,
 )
 
 TITLE = "Policy improvement theorem"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Givens):
@@ -57,24 +58,32 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """Two states whose moves are certain; then moves that are not; then the values are asked for, too.
 
-    A state in which both policies do the same has no other action.
+    The other policy is better in every state in which it does something else; or in all of them but one. A state in
+    which both do the same has no other action.
     """
     gamma = rng.choice(tuple(UNITS)[level == 3 : min(level + 1, 3)])
-    states = 2 if level == 1 else 2 + rng.below(2)
-    shape = Shape(states=states, actions=2, branches=min(level, 2), denominators=(2, 4) if level < 3 else (2,))
-    others = (1, 4) if rng.chance(Fraction(2, 5) if level == 1 else Fraction(1, 4)) else (-4, 4)
-    forked: Literal["all", "others"] = "all" if level == 3 else "others"
+    count = 2 if level == 1 else 2 + rng.below(2)
+    shape = Shape(states=count, actions=2, branches=min(level, 2), denominators=(2, 4) if level < 3 else (2,))
     setting = draw_setting(rng)
-    mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
-    kept = rng.choice(mdp.states) if level > 1 and rng.chance(Fraction(1, 2)) else None
-    other = {
-        state: policy[state] if state == kept else next(action for action in actions if action != policy[state])
-        for state, actions in mdp.actions.items()
-    }
-    rows = tuple(row for row in mdp.transitions if row.action in (policy[row.state], other[row.state]))
-    ends = tuple(end for end in mdp.terminal if _reached(rows, end))
-    if level == 2 and states == 2 and all(row.probability == 1 for row in rows):
+    values = draw_values(rng, setting.states[:count], gamma)
+    kept = rng.choice((*values,)) if level > 1 and rng.chance(Fraction(1, 2)) else None
+    worse = rng.choice([state for state in values if state != kept]) if rng.chance(Fraction(1, 2)) else None
+    pair = setting.actions[:2]
+    policy = {state: rng.choice(pair) for state in values}
+    other = {state: policy[state] if state == kept else pair[policy[state] == pair[0]] for state in values}
+    worths = {}
+    for state, value in values.items():
+        gain = rng.whole(1, 4)
+        for action in pair:
+            if action == policy[state]:
+                worths[state, action] = value
+            elif action == other[state]:
+                worths[state, action] = value - gain if state == worse else value + gain
+    own = [] if level == 3 else [*policy.items()]
+    rows = draw_worth(rng, setting, shape, gamma, values, worths, own).transitions
+    if level == 2 and count == 2 and all(row.probability == 1 for row in rows):
         return draw(level, rng)  # that would be level 1
+    ends = (setting.terminal,) if _reached(rows, setting.terminal) else ()
     return Given(
         mdp=Model(story=setting.told(ends), transitions=rows, terminal=ends),
         policy=policy,

@@ -18,7 +18,7 @@ from rldrill.problems.readings import distribution, note_of
 
 TITLE = "Markov property"
 SOURCE = "Sutton & Barto 2018, section 3.1"
-REVISION = 4
+REVISION = 5
 
 
 class Seen(NamedTuple):
@@ -143,6 +143,17 @@ _STORIES = (
 )
 
 
+#: All probabilities in fifths of so many next states.
+_FIFTHS = {
+    count: [
+        tuple(Fraction(share, 5) for share in shares)
+        for shares in product(range(1, 5), repeat=count)
+        if sum(shares) == 5
+    ]
+    for count in (2, 3)
+}
+
+
 def draw(level: int, rng: Draws) -> Given:
     """Two histories with two next states; then four or six; then joint probabilities, or a count to be found."""
     story = rng.choice(_STORIES)
@@ -158,10 +169,11 @@ def draw(level: int, rng: Draws) -> Given:
     else:
         totals = dict(zip(histories, (5 * count for count in rng.distinct(len(histories), 1, 8)), strict=True))
     matters = _where_it_matters(rng, nows, at_most=1 if finding else len(nows))
-    chances = {now: rng.split(len(nexts), (5,)) for now in nows}
+    rows = rng.shuffled(_FIFTHS[len(nexts)])
+    chances = dict(zip(nows, rows, strict=False))  # the present state matters
     given_history = {history: chances[history[1]] for history in histories}
     for now in matters:
-        given_history[rng.choice(befores), now] = _another(rng, chances[now])
+        given_history[rng.choice(befores), now] = rng.choice(rows[len(nows) :])
     table = tuple(
         Seen(*history, after, chance * totals[history])
         for history in histories
@@ -178,13 +190,6 @@ def _where_it_matters(rng: Draws, nows: tuple[str, ...], at_most: int) -> tuple[
     if at_most == 1:
         return () if rng.chance(Fraction(1, 2)) else (rng.choice(nows),)
     return rng.choice(((), *((now,) for now in nows), nows))
-
-
-def _another(rng: Draws, chances: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
-    """Other probabilities of as many next states."""
-    while (other := rng.split(len(chances), (5,))) == chances:
-        pass
-    return other
 
 
 def question(given: Given) -> Question:

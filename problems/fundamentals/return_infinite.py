@@ -13,14 +13,14 @@ from rldrill.problems.reversible import Reversible, letter_asked, unknown
 
 TITLE = "Return without an end"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Reversible):
     """The first rewards r_1 … r_k, the rewards that come round and round after them, and the discount.
 
-    Where ``known`` is the return from the start, the reward or the discount that is left open is asked for, and then
-    the return from where the rewards begin to repeat.
+    Where ``known`` is the return from the start, what is left open is asked for beside the return from where the
+    rewards begin to repeat: a reward after that return, the discount before it.
     """
 
     first: tuple[Open, ...] = Field(
@@ -48,7 +48,7 @@ def draw(level: int, rng: Draws) -> Given:
     """One reward and then a constant; then rounds of two or three; then a letter left open or asked for."""
     if level == 1:
         gamma = rng.fraction("1/2", "1/3", "2/3")
-        opening, always = rng.nonzero(-4, 9), rng.nonzero(-4, 9)
+        opening, always = rng.nonzero(-4, 9), rng.nonzero(-4, 7)
         return Given(first=(opening,), repeated=(always,), gamma=gamma) if opening != always else draw(level, rng)
     gamma = rng.fraction("1/2", "1/3", "2/3", "3/4", "4/5")
     if level == 2:
@@ -120,7 +120,8 @@ def question(given: Given) -> Question:
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."
         tail = [Part(f"What is the return $R_{{{k}}}$?", Number())] if k else []
-        return Question((Paragraph(f"{opening}{told} {more}"),), (letter_asked(given), *tail))
+        asked = (letter_asked(given), *tail) if given.letter == "gamma" else (*tail, letter_asked(given))
+        return Question((Paragraph(f"{opening}{told} {more}"),), asked)
     parts = [Part(f"What is the return $R_{{{k}}}${in_open(given)}?", Number())]
     if k:
         parts.append(Part(f"What is the return $R_{{0}}${in_open(given)}?", Number()))

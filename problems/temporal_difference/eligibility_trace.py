@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_visits
 
 TITLE = "Eligibility traces"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Reversible):
@@ -63,7 +63,7 @@ _DECAYS = tuple(
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two visits and a return; then four or five visits; then mostly with a letter left open, sometimes to be found."""
+    """Two visits and a return; then four or five visits; then traces that add up, with a letter open or to be found."""
     gamma, lam = rng.choice(_DECAYS)
     if level == 1:
         return Given(states=draw_visits(rng, "aba")[1], gamma=gamma, lam=lam, asked=(2,))
@@ -74,7 +74,7 @@ def draw(level: int, rng: Draws) -> Given:
         gamma=gamma,
         lam=lam,
         asked=rng.choice(((last - 1, last), (last,))) if level == 2 else (last,),
-        replacing=rng.chance(Fraction(1, 3)),
+        replacing=level == 2 and rng.chance(Fraction(1, 3)),
     )
     if level == 2:
         return given
@@ -83,9 +83,7 @@ def draw(level: int, rng: Draws) -> Given:
     if kind < 4:
         update = {"gamma": Fraction(1, 2), "lam": Fraction(1, 2)} | update
     else:
-        again = states[1] == states[0]
-        known = Fraction(1) if again and given.replacing else gamma * lam + again
-        update |= {"known": known, "asked": (1, last), "replacing": given.replacing and not again}
+        update |= {"known": gamma * lam + (states[1] == states[0]), "asked": (1, last)}
     return given.model_copy(update=update)
 
 
@@ -120,7 +118,6 @@ def question(given: Given) -> Question:
 
 def _traces(given: Given, time: int) -> Part:
     states = given.visited
-    asked = "traces of all states" if len(states) > 1 else f"trace of {states[0]}"
-    verb = "are" if len(states) > 1 else "is"
-    ask = f"What {verb} the {asked} after the update at $t = {time}${in_open(given)}?"
+    asked = "$e(s)$ of every state" if len(states) > 1 else f'$e("{states[0]}")$'
+    ask = f"What is the trace {asked} after the update at $t = {time}${in_open(given)}?"
     return Part(ask, Values("e", states))

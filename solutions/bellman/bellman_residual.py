@@ -11,7 +11,7 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model
 from rldrill.problems.valued import with_reward, worth
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import NoSolution, Value, exact, is_zero
+from rldrill.solutions.exact import NoSolution, Value, exact, is_zero, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
@@ -48,8 +48,7 @@ def _of_claim(given: Claimed, work: Work) -> None:
     if wrong:
         work.say(f"The equation does not hold in {joined(wrong)}, where $δ ≠ 0$, so $V$ is another function.")
     elif given.gamma != 1:
-        equations = f"Bellman {'optimality ' if given.optimal else ''}equations"
-        work.say(f"All residuals are $0$, and with $γ < 1$ only one function solves the {equations}: so this is it.")
+        work.say(f"All residuals are $0$, and {_only(optimal=given.optimal)}: so this is it.")
     else:
         true = _totals(given)
         wrong = [state for state in given.mdp.states if true[state] != exact(given.values[state])]
@@ -58,6 +57,10 @@ def _of_claim(given: Claimed, work: Work) -> None:
             f"against the expected totals: they {f'differ in {joined(wrong)}' if wrong else 'are the same'}."
         )
     work.answer(not wrong)
+
+
+def _only(*, optimal: bool) -> str:
+    return f"with $γ < 1$ only one function solves the Bellman {'optimality ' if optimal else ''}equations"
 
 
 def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
@@ -78,9 +81,11 @@ def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
     worths = {a: work.step(Q_STAR_FROM_V, s=row.state, a=a, **known) for a in mdp.actions[row.state]}
     less = [action for action in worths if action != row.action]
     of_state = f'$V("{row.state}")$'
-    told = f"{joined(less).capitalize()} {'is' if len(less) == 1 else 'are'} worth less than {of_state}"
-    work.say(f"{told}, so {row.action} must reach it:")
-    work.answer(work.equate(letter, worths[row.action], V[row.state]))
+    beaten = f"{joined(less).capitalize()} {'is' if len(less) == 1 else 'are'} worth less than {of_state}"
+    work.say(f"{beaten}, so {row.action} must reach it:")
+    reward = work.equate(letter, worths[row.action], V[row.state])
+    work.say(f"With ${letter} = {told(reward)}$ all residuals are $0$, and {_only(optimal=True)}: so $V = V^*$.")
+    work.answer(reward)
     work.say(f"With ${letter} = {shown(given.reward)}$ only the residual of {row.state} changes:")
     taken = [each for each in mdp.transitions if not kept or each.state != row.state or each.action == row.action]
     closed = with_reward(Model(transitions=tuple(taken), terminal=mdp.terminal), given.reward)

@@ -1,9 +1,9 @@
 """The values of the best policy, held against the optimality equation; or a reward, from an optimal value."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from itertools import count, product
-from typing import Any, TypeAlias
+from itertools import product
+from typing import Any, NamedTuple
 
 from rldrill.problems.bellman.optimal_value import Given, Optimal, Sought, of_two_steps
 from rldrill.problems.document import joined
@@ -11,9 +11,10 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, equiprobable
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, parameters, to_sympy
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
-from rldrill.solutions.formula.notation import numbered, pi
+from rldrill.solutions.formula.nodes.leaves import put_in_name
+from rldrill.solutions.formula.notation import Qstar, numbered, pi
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.optimality import Optimum, optimum
 from rldrill.solutions.oracle import (
@@ -29,23 +30,19 @@ from rldrill.solutions.oracle import (
     without_loss,
 )
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, terminal_value
-from rldrill.solutions.rational import generator
+from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import (
-    BELLMAN_OPTIMALITY_V,
     BELLMAN_V,
     OWN_VALUE,
     Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
+    V_STAR_FROM_Q,
 )
 from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, of_round
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Result, Work
 
 #: Of so many states policy iteration is written out.
 _WRITTEN_OUT = 4
-
-
-#: Chooses among the values with which one action or another reaches what is known.
-Chosen: TypeAlias = Callable[[Iterable[Any]], Any]
 
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
@@ -59,79 +56,52 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
 def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     """The other value, with which the maximum is what is known; the reward, with which it is that value."""
     mdp, state, row = given.mdp, given.state, given.row
-    target, y = exact(given.optimum[state]), generator("y")
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    V = dict.fromkeys(mdp.terminal, ZERO) | {state: target}
-    work.say(f'Let $y = V^*("{row.state}")$. The actions in {state} have these values:')
-    worths = {
-        action: work.step(Q_STAR_FROM_V, s=state, a=action, **known, V=V | {row.state: y})
-        for action in mdp.actions[state]
-    }
-    ends = {}
-    for action, worth in worths.items():
-        if parameters(worth):
-            work.say(f'If {action} is best in {state}, this is $V^*("{state}") = {to_sympy(target)}$:')
-            ends[action] = work.equate("y", worth, target)
-    if not ends or any(worth >= target for action, worth in worths.items() if action not in ends):
-        raise NoSolution(
-            f"optimum: no value of {row.state!r} makes {target} the optimal value of {state!r}; give another"
-        )
-    value = chosen(ends.values())
-    (best, *_) = (action for action, end in ends.items() if end == value)
-    if less := [action for action in worths if action not in ends]:
-        verb = "is" if len(less) == 1 else "are"
-        work.say(f"{joined(less).capitalize()} {verb} worth less than ${to_sympy(target)}$.")
-    if others := {end: action for action, end in ends.items() if end != value}:
-        more = {}
-        for end in others:
-            work.say(f"With $y = {to_sympy(end)}$ {best} is worth:")
-            more[end] = work.step(Q_STAR_FROM_V, s=state, a=best, **known, V=V | {row.state: end})
-        told = joined([f"${to_sympy(more[end])}$ with $y = {to_sympy(end)}$" for end in others])
-        too_much = f"{best.capitalize()} would be worth {told}, more than ${to_sympy(target)}$"
-        work.say(f"{too_much}: so $y = {to_sympy(value)}$ is right.")
-    else:
-        work.say(f"So {best} is best in {state}.")
+    V = dict.fromkeys(mdp.terminal, ZERO) | {state: exact(given.optimum[state])}
+    value, best = reached(work, Q_STAR_FROM_V, Known("V^*", state, V[state], "V^*", row.state), V, chosen, **known)
     V[row.state] = work.answer(value)
-    work.say(f"The actions in {row.state} have these values:")
-    worths = {
-        action: work.step(Q_STAR_FROM_V, s=row.state, a=action, **known, V=V) for action in mdp.actions[row.state]
-    }
-    if V[row.state] == value and any(each >= value for action, each in worths.items() if action != row.action):
-        raise NoSolution(
-            f"the reward of {row.action!r} does not follow: another action in {row.state!r} is worth as much or more"
-        )
-    work.say(f'Only {row.action} can be worth $V^*("{row.state}") = {to_sympy(V[row.state])}$:')
-    work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
-    rest = {}
-    for action in mdp.actions[state]:
-        if action != best:
-            calculated = work.step if action in ends else work.value  # else it has been, for it does not depend on y
-            rest[action] = calculated(Q_STAR_FROM_V, s=state, a=action, **known, V=V)
-    beaten = [f"{action} (${to_sympy(number)}$)" for action, number in rest.items()]
-    compared = f", more than {joined(beaten)}" if beaten else ""
-    work.say(f'{best.capitalize()} is worth $V^*("{state}") = {to_sympy(target)}${compared}.')
-    work.answer({state: (best,)})
-    work.say(f"If {row.action} is not taken in {row.state}, the optimal values follow from the other actions.")
+    certain = V[row.state] == value
+    reward, worths = rewarded(work, Q_STAR_FROM_V, row, "V^*", V[row.state], V, demanding=certain, **known)
+    work.answer(reward)
     rivals = [action for action in mdp.actions[row.state] if action != row.action]
     start = {state: best, row.state: max(rivals, key=worths.__getitem__)}
-    policy = {each: start[each] for each in mdp.states}
-    V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy, "the best of the actions left")
-    work.say(f"With these values {row.action} is worth in {row.state}:")
-    worth = work.step(Q_STAR_FROM_V, s=row.state, a=row.action, **known, V=V)
-    work.say("This is as much as the best of the others is worth there if")
-    least = work.equate(str(row.reward), worth, V[row.state])
+    work.answer(_least(given, work, known, {each: start[each] for each in mdp.states}))
+
+
+def _least(given: Sought, work: Work, known: Mapping[str, Any], policy: dict[str, str]) -> Value:
+    """The reward with which its action is worth as much as the best policy without it, found from a first policy."""
+    mdp, row = given.mdp, given.row
+    work.say(f"Which policy is optimal if {row.action} is not taken in {row.state}?")
+    last = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy)
+    value_of_action = of_round(last.number)[2]
+    others = [pair for pair in mdp.pairs if last.policy[pair[0]] != pair[1]]
+    work.say(f"What are the other actions worth if $π_{{{last.number}}}$ is followed after them?")
+    worths = {(s, a): work.step(value_of_action, s=s, a=a, **known, V=last.values) for s, a in others}
+    instead = f"{row.action} in {row.state}"
+    if beaten := [f"{action} in {state}" for state, action in others if (state, action) != row[:2]]:
+        verb = "is" if len(beaten) == 1 else "are"
+        work.say(
+            f"{joined(beaten).capitalize()} {verb} worth no more than the action of $π_{{{last.number}}}$, so without "
+            f"{instead} it is optimal."
+        )
+    work.say(f"So {instead} is a best action as soon as it is worth as much as {last.policy[row.state]}:")
+    least = work.equate(str(row.reward), worths[row[:2]], last.values[row.state])
     work.say(f"What {row.action} is worth grows with ${row.reward}$, so this is the smallest one.")
-    work.answer(least)
+    return least
 
 
 def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     """Policy iteration, its last values put into the optimality equation, and what follows."""
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
-        first = of_two_steps(mdp, Fraction(given.gamma))
-        values = _iterated(given, work, first, "what would be best if two steps were left")
+        last = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)))
+        values, of = last.values, f"$π_{{{last.number}}}$"
+        work.say(f"Is another action better than that of {of}? Its values are put into the optimality equation:")
+        Q = _worths(given, work, values)
+        work.say(f"The greatest values are those of {of} again, so no action is better: they are optimal.")
     else:
         values = _of_the_best(given, work, best, evaluation)
+        Q = _worths(given, work, values)
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     if best.unlike_sweeps:
         work.say(
@@ -139,37 +109,53 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
                 *best.unlike_sweeps
             )
         )
-    values |= work.answer(of_states(mdp, values))
-    greedy = {state: work.value(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
+    own = values | work.answer(of_states(mdp, values))
+    greedy = {state: work.value(GREEDY_FROM_V, s=state, V=own, **known) for state in mdp.states}
     told = joined([f"{joined(list(actions))} in {state}" for state, actions in greedy.items()])
     work.say(f"The maxima of the optimality equation are reached by {told}.")
     best.tell(work)
     work.answer(best.among(greedy))
-    work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+    work.say("These values stand in part (a):")
+    work.lines.append(Result(tuple(Qstar(*map(put_in_name, pair)) for pair in Q), tuple(Q.values())))
+    if own != values:  # whoever has other values goes on with them
+        Q = {(s, a): work.value(Q_STAR_FROM_V, s=s, a=a, V=own, **known) for s, a in mdp.pairs}
+    work.answer(Q)
 
 
-def _iterated(given: Optimal, work: Work, policy: dict[str, str], why: str) -> dict[str, Value]:
-    """Policy iteration from a policy, which takes what the words say, to the last values, held against the equation."""
+def _worths(given: Optimal, work: Work, values: Mapping[str, Value]) -> dict[tuple[str, str], Value]:
+    """The optimality equation in two steps: what every action is worth, and the greatest of it."""
+    mdp, gamma = given.mdp, exact(given.gamma)
+    Q = {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **knowns.model(mdp), gamma=gamma) for s, a in mdp.pairs}
+    for state in mdp.states:
+        work.step(V_STAR_FROM_Q, s=state, Q=Q, actions=mdp.actions)
+    return Q
+
+
+class _Last(NamedTuple):
+    """The policy with which policy iteration ends, its number and its values."""
+
+    number: int
+    policy: dict[str, str]
+    values: dict[str, Value]
+
+
+def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> _Last:
+    """Policy iteration from a policy to the one that it ends with."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    work.say(f"Policy iteration may start with any policy; here with $π_0$, which takes {why}: {_told(policy)}.")
-    for number in count():
+    work.say(f"Start with the guess $π_0$: {_told(policy)}.")
+    number = 0
+    while True:
         evaluate, improve, _ = of_round(number)
         values = evaluated(work, evaluate, mdp, known | {"pi": policy})
         greedy = {state: work.value(improve, s=state, V=values, **known) for state in mdp.states}
         if all(policy[state] in greedy[state] for state in mdp.states):
-            break
+            return _Last(number, policy, values)
         for state in mdp.states:
             work.step(improve, s=state, V=values, into=numbered(pi, number + 1), **known)
         policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
-        work.say(f"This changes the policy, so $π_{{{number + 1}}}$ is evaluated: {_told(policy)}.")
-    work.say(
-        f"Is another action better than that of $π_{{{number}}}$? Its values are put into the optimality equation:"
-    )
-    for state in mdp.states:
-        work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
-    work.say(f"The greatest values are those of $π_{{{number}}}$ again, so no action is better: they are optimal.")
-    return values
+        number += 1
+        work.say(f"This changes the policy, so $π_{{{number}}}$ is evaluated: {_told(policy)}.")
 
 
 def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:
@@ -183,8 +169,6 @@ def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluati
         else ""
     )
     work.say(f"{endless}Put into the optimality equation, no other action is better, so these are the optimal values:")
-    for state in mdp.states:
-        work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **knowns.model(mdp), gamma=exact(given.gamma))
     return values
 
 
@@ -272,8 +256,7 @@ def _tried(given: Sought) -> Answers:
         P, R = tensors(mdp, states, x := (known - low) / (high - low))
         V = optimal_values(P, R, gamma, n)
         if abs(V[place] - known) < 1e-6:
-            best = best_actions(mdp, lookahead(P, R, V, gamma)[:n])
-            return V[other], x, {given.state: best[given.state]}, _threshold(given, P, R)
+            return V[other], x, _threshold(given, P, R)
     raise AssertionError("no policy is optimal")
 
 

@@ -62,16 +62,22 @@ def _bounds(given: Given, work: Work) -> dict[str, Any]:
 def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) -> None:
     """Show that the bound is met after that many sweeps, and not one sweep earlier."""
     limit = f"${text_of(accuracy)}$"
+    work.say("The bound falls from sweep to sweep, so the first $k$ at which it is small enough is the smallest.")
     for k, relation in ((enough - 1, "above"), (enough, "at most")):
         if k < 0:
             continue
         if enough <= WRITTEN_OUT:
-            work.step(CONTRACTION, k=k, **known)
-            work.say(f"That is {relation} {limit}.")
+            bound = work.step(CONTRACTION, k=k, **known)
+            work.say(f"That is {_rounded(bound)}{relation} {limit}.")
         else:  # the fraction has more digits than anybody reads
             value = work.value(CONTRACTION, k=k, **known)
             power = f"{_power(known['gamma'], k)}·{text_of(known['distance'][0])}"
             work.say(f"After {k} sweeps the bound is ${power} ≈ {decimal(value, 4)}$, {relation} {limit}.")
+
+
+def _rounded(bound: Value) -> str:
+    """A fraction as a decimal, to be compared; nothing for a whole number."""
+    return f"about ${decimal(bound, 4)}$, " if "/" in text_of(bound) else ""
 
 
 def _power(gamma: Value, k: int) -> str:

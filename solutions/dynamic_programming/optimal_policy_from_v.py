@@ -81,8 +81,9 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tup
     (action, *_) = arg_max(given.mdp.actions[state], list(fixed.values()))
     values = dict(fixed)
     if again:
-        work.say(f"The greatest of these is $x = {told(largest)}$, that of {action}. With this $x$:")
-        for other in again:
+        beaten = [other for other in again if other != action]
+        work.say(f"The greatest of these is $x = {told(largest)}$, that of {action}.{' With this $x$:' * bool(beaten)}")
+        for other in beaten:
             values[state, other] = work.step(
                 Q_STAR_FROM_V, s=state, a=other, **{**known, "V": {**known["V"], state: largest}}
             )

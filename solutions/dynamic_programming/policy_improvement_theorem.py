@@ -35,7 +35,8 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     else:
         failing = [state for state, gap in zip(given.mdp.states, gaps, strict=True) if gap < 0]
         work.say(
-            f"The inequality fails in {joined(failing)}, so the theorem does not apply: it says nothing about $π'$."
+            f"The inequality fails in {joined(failing)}, so the theorem does not apply: it does not show that $π'$ is "
+            "at least as good as $π$."
         )
     work.answer(applies)
 
@@ -72,16 +73,15 @@ def _values(given: Given, work: Work, evaluation: Evaluation) -> dict[str, Value
 
 def _compared(given: Given, work: Work, values: Mapping[str, Value], worth: Any) -> tuple[int, ...]:
     worth = work.answer(worth)
-    gaps = {state: sign(worth[state, a] - values[state]) for state, a in given.pairs}
-    told = []
+    gaps = tuple(sign(worth[pair] - values[pair[0]]) for pair in given.pairs)
     work.say("The theorem asks for this in every state:")
-    for state, gap in gaps.items():
-        holds = "<" if gap < 0 else "≥"
-        work.step(POLICY_IMPROVEMENT_THEOREM, sign=holds, s=state, V=values, pi1=given.other)
-        here = f"{text_of(worth[state, given.other[state]])} {holds} {text_of(values[state])}".replace("-", "−")
-        told.append(f"${here}$ in {state}")
-    work.say(f"In numbers: {joined(told)}.")
-    return tuple(gaps.values())
+    work.recall(POLICY_IMPROVEMENT_THEOREM)
+    told = []
+    for (state, action), gap in zip(given.pairs, gaps, strict=True):
+        here = f"{text_of(worth[state, action])} {'<' if gap < 0 else '≥'} {text_of(values[state])}".replace("-", "−")
+        told.append(f'$Q^π("{state}", "{action}") = {here} = V^π("{state}")$')
+    work.say(f"Here {joined(told)}.")
+    return gaps
 
 
 @slip(

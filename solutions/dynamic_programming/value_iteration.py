@@ -1,11 +1,11 @@
-"""Sweeps of value iteration, over states or over actions, then the greedy actions."""
+"""Sweeps of value iteration, over states or over actions, and the greedy actions; or a reward, from a value."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 from rldrill.problems.document import joined
-from rldrill.problems.dynamic_programming.value_iteration import Given
+from rldrill.problems.dynamic_programming.value_iteration import Given, Sought, Swept
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign, to_sympy
@@ -13,8 +13,9 @@ from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.greedy import taken
-from rldrill.solutions.numerics import np
+from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
+from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
 from rldrill.solutions.sheet.dynamic_programming import (
     MEAN_FOR_MAX,
@@ -34,6 +35,9 @@ def solve(
     ends: Callable[[Model], dict[str, Value]] = lambda mdp: dict.fromkeys(mdp.terminal, ZERO),
 ) -> None:
     """Each sweep from the values of the one before, or with the newest in place; an end is worth nothing."""
+    if isinstance(given, Sought):
+        _sought(given, work, min)
+        return
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     if given.action_values:
@@ -51,10 +55,39 @@ def solve(
     if given.tie:
         _tie(given.tie, work, ahead_of(given.sweeps), known | {"V": values})
         return
-    work.say(f"The greedy policy $π$ for $V_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    best = {state: work.step(greedy(given.sweeps)[0], s=state, V=values, **known) for state in mdp.states}
+    _greedy(mdp, work, given.sweeps, known | {"V": values})
+
+
+def _greedy(mdp: Model, work: Work, sweeps: int, known: dict[str, Any]) -> None:
+    """The greedy policy for the values after the last sweep."""
+    work.say(f"The greedy policy $π$ for $V_{{{sweeps}}}$, which need not be an optimal policy yet:")
+    best = {state: work.step(greedy(sweeps)[0], s=state, **known) for state in mdp.states}
     work.say(f"So these actions are greedy: {taken(best)}.")
     work.answer(best)
+
+
+def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
+    """The first sweep but for the value that follows from the second, then the reward; the rest of the second sweep."""
+    mdp, state, row = given.mdp, given.state, given.row
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    start = knowns.state_values(given.start, mdp.terminal)
+    sweep = synchronous(VALUE_ITERATION)
+    others = [each for each in mdp.states if each != row.state]
+    work.say(f"Sweep 1 in {joined(others)}:")
+    first = start | {each: work.step(sweep, s=each, V=start, into=numbered(V, 1), **known) for each in others}
+    target = exact(given.outcome[state])
+    value, _ = reached(work, ahead_of(1), Known("V_2", state, target, "V_1", row.state), first, chosen, **known)
+    first[row.state] = work.answer(value)
+    certain = first[row.state] == value
+    reward, _ = rewarded(work, ahead_of(0), row, "V_1", first[row.state], start, demanding=certain, **known)
+    known["R"] = {**known["R"], row[:3]: work.answer(reward)}
+    work.say("Sweep 2:")
+    second = first | {state: target}
+    for each in mdp.states:
+        if each != state:
+            second |= {each: work.step(sweep, s=each, V=first, into=numbered(V, 2), **known)}
+    second |= work.answer({each: second[each] for each in mdp.states if each != state})
+    _greedy(mdp, work, 2, known | {"V": second})
 
 
 def _tie(state: str, work: Work, worth_of: Formula, known: dict[str, Any]) -> None:
@@ -77,7 +110,7 @@ def _tie(state: str, work: Work, worth_of: Formula, known: dict[str, Any]) -> No
     work.answer(letter)
 
 
-def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping[str, Value]) -> None:
+def _over_actions(given: Swept, work: Work, known: dict[str, Any], ends: Mapping[str, Value]) -> None:
     """The same for the values of states with actions; an end has one action, worth nothing."""
     mdp = given.mdp
     known["actions"] = mdp.actions | dict.fromkeys(mdp.terminal, (knowns.NO_ACTION,))
@@ -99,22 +132,69 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
 @slip(
     "terminal-reward-twice",
     "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
-    when=lambda given: given.tie is None and knowns.pays_at_the_end(given.mdp),
+    when=lambda given: _swept(given) and knowns.pays_at_the_end(given.mdp),
 )
 def paid_twice(given: Given, work: Work) -> None:
     """An end is worth what the way there earned."""
     solve(given, work, ends=knowns.last_rewards)
 
 
+@slip(
+    "exceeds-the-maximum",
+    "V₂ takes the greatest of the actions' values, so none may exceed it: the smallest value that reaches it is right.",
+    when=lambda given: isinstance(given, Sought) and _ways(given) > 1,
+)
+def exceeds(given: Sought, work: Work) -> None:
+    """The greatest of the values that reach what is known."""
+    _sought(given, work, max)
+
+
+def _swept(given: Given) -> bool:
+    """Whether sweeps are gone through, with every number known."""
+    return isinstance(given, Swept) and given.tie is None
+
+
+def _ways(given: Sought) -> int:
+    """How many actions may lead from the state whose value is known to the one where the reward is left open."""
+    return len({row.action for row in given.mdp.transitions if (row.state, row.next) == (given.state, given.row.state)})
+
+
 MISCONCEPTIONS = (
-    *order_slips(solve, lambda given: not given.in_place and not given.action_values and given.tie is None),
-    paid_twice, MEAN_FOR_MAX,
-    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.tie is None), OPTIMAL_Q_BY_REWARD
+    *order_slips(solve, lambda given: _swept(given) and not given.in_place and not given.action_values),
+    paid_twice, MEAN_FOR_MAX, exceeds,
+    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and (_swept(given) or isinstance(given, Sought))),
+    OPTIMAL_Q_BY_REWARD,
 )  # fmt: skip
 
 
 def oracle(given: Given) -> Answers:
     """The same sweeps as array operations; the greedy action by trying all."""
+    return _halved(given) if isinstance(given, Sought) else _in_floats(given)
+
+
+def _halved(given: Sought) -> Answers:
+    """The reward by halving: what two sweeps give does not fall where it rises."""
+    mdp, gamma = given.mdp, at(given.gamma)
+    states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
+    place = states.index(given.state)
+
+    def swept(x: float) -> tuple[Array, Array, Array]:
+        P, R = tensors(mdp, states, x)
+        sweeps = [np.array([at(given.start.get(state, 0)) for state in states])]
+        for _ in range(2):
+            sweeps.append(np.r_[lookahead(P, R, sweeps[-1], gamma)[:n].max(axis=1), sweeps[0][n:]])
+        return sweeps[1], sweeps[2], lookahead(P, R, sweeps[2], gamma)[:n]
+
+    low, high = -1e4, 1e4
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if swept(middle)[1][place] < at(given.outcome[given.state]) else (low, middle)
+    first, second, worth = swept(high)
+    return (first[states.index(given.row.state)], high, np.delete(second[:n], place), best_actions(mdp, worth.round(6)))
+
+
+def _in_floats(given: Swept) -> Answers:
+    """The sweeps, and the greedy actions or the discount of a tie."""
     states = (*given.mdp.states, *given.mdp.terminal)
     P, R = tensors(given.mdp, states)
     V = np.array([at((given.start or {}).get(state, 0)) for state in states])

@@ -17,6 +17,8 @@ from rldrill.solutions.sheet.fundamentals import (
     RETURN,
     START_DROPPED,
     UNWEIGHTED,
+    ReturnOf,
+    tau,
 )
 from rldrill.solutions.work import Work
 
@@ -32,15 +34,16 @@ def solve(given: Given, work: Work) -> None:
     }
     probabilities, returns = {}, {}
     for number, episode in enumerate(given.episodes(), 1):
-        work.say(f"Episode {number}: {_told(episode)}.")
+        work.say(f"Episode $τ_{{{number}}}$: {_told(episode)}.")
         run: dict[str, Any] = {
+            "tau": number,
             "T": len(episode.transitions),
             "S": dict(enumerate((episode.start, *(row.next for row in episode.transitions)))),
             "A": {time: row.action for time, row in enumerate(episode.transitions)},
             "r": {time + 1: exact(row.reward) for time, row in enumerate(episode.transitions)},
         }
-        probabilities[number] = work.step(EPISODE_PROBABILITY, tau=number, **run, **known)
-        returns[number] = work.step(RETURN, t=0, **run, gamma=known["gamma"])
+        probabilities[number] = work.step(EPISODE_PROBABILITY, **run, **known)
+        returns[number] = work.step(RETURN, t=0, **run, gamma=known["gamma"], into=lambda t: ReturnOf(t, tau))
     work.say("Over all episodes:")
     value = work.step(GOAL, episodes=tuple(probabilities), episode_pr=probabilities, episode_return=returns)
     if given.known is not None:

@@ -13,17 +13,19 @@ from rldrill.solutions.sheet.fundamentals import (
     JOINT_FOR_CONDITIONAL,
     MARKOV_PROPERTY,
     RELATIVE_FREQUENCY,
+    of_joint,
 )
 from rldrill.solutions.work import Work
 
+_COUNT = "N(s_{t-1}, s_t, s_{t+1})$ is the count"
 #: Probabilities by the state before, the present state and the next one.
 Chances = dict[tuple[str, str, str], Value]
 
 
 def solve(given: Given, work: Work) -> None:
     """A count that is missing; the probability asked for after every history; of the others what is needed then."""
-    what = "here the joint probability" if given.probabilities else "the count"
-    work.say(f"$N(s_{{t-1}}, s_t, s_{{t+1}})$ is {what} of three successive states in the table.")
+    what = "Pr(s_{t-1}, s_t, s_{t+1})$ is the joint probability" if given.probabilities else _COUNT
+    work.say(f"${what} of three successive states in the table.")
     whole = _completed(given, work)
     asked = _asked(whole, work)
     work.say("A decision process has the Markov property if, with its actions and rewards,")
@@ -78,7 +80,8 @@ def _asked(given: Given, work: Work) -> Chances:
 
 def _probability(given: Given, work: Work, history: tuple[str, str], after: str) -> Value:
     S = dict(enumerate((*history, after)))
-    return work.step(RELATIVE_FREQUENCY, S=S, N=_counts(given), states=_states(given), t=1)
+    formula = of_joint(RELATIVE_FREQUENCY) if given.probabilities else RELATIVE_FREQUENCY
+    return work.step(formula, S=S, N=_counts(given), states=_states(given), t=1)
 
 
 def _matters(given: Given, chances: Chances) -> tuple[str, ...]:

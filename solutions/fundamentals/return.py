@@ -32,7 +32,7 @@ _OF_SECOND = quantity("G", subscripted("R′"))
 
 
 def solve(given: Any, work: Work) -> None:
-    """The return asked for by its definition; earlier ones by the recursion. Two episodes one after the other."""
+    """The last return asked for by its definition; earlier ones by the recursion. Two episodes one after the other."""
     if hasattr(given, "others"):
         _compare(given, work)
         return
@@ -45,18 +45,17 @@ def solve(given: Any, work: Work) -> None:
     if given.known is not None:
         find(given, work, work.step(RETURN, t=0, **known))
         return
+    last = end - 1 if given.time is None else given.time
+    G = {last: work.step(RETURN, t=last, **known)}
+    if given.time is not None:
+        G[last] = work.answer(G[last])
+    formula = RETURN if work.misreads(RETURN) else RETURN_RECURSIVE  # the recursion holds for the true definition only
+    for time in reversed(range(last)):
+        G[time] = work.step(formula, t=time, G=dict(G), **known)
     if given.time is None:
-        work.answer(tuple(work.step(RETURN, t=time, **known) for time in range(end)))
-        return
-    value = work.answer(work.step(RETURN, t=given.time, **known))
-    if given.time == 0:
-        return
-    if work.misreads(RETURN):  # the recursion holds for the true definition only
-        value = work.step(RETURN, t=0, **known)
-    else:
-        for time in reversed(range(given.time)):
-            value = work.step(RETURN_RECURSIVE, t=time, G={time + 1: value}, **known)
-    work.answer(value)
+        work.answer(tuple(G[time] for time in range(end)))
+    elif given.time:
+        work.answer(G[0])
 
 
 def _compare(given: Any, work: Work) -> None:

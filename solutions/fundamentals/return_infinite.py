@@ -9,6 +9,7 @@ from rldrill.problems.fundamentals.return_infinite import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.rational import generator
 from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import (
     GEOMETRIC_SERIES,
@@ -26,14 +27,25 @@ MISCONCEPTIONS = (TAIL_FORGOTTEN, TAIL_UNDISCOUNTED, PLUS_FOR_MINUS, ROUND_OF_ON
 def solve(given: Given, work: Work) -> None:
     """One round over 1 − γⁿ; the return from the start has the first rewards and the discounted rest."""
     k = len(given.first)
-    if given.known is not None:
+    if given.known is None:
+        tail = work.answer(_tail(given, work, exact))
+        if k:
+            work.answer(_from_start(given, work, exact, tail))
+    elif k and given.letter in map(str, given.repeated):
+        _in_the_round(given, work, exact(given.known))
+    elif k and given.letter != "gamma":
+        find(given, work, _from_start(given, work, exact, work.answer(_tail(given, work, exact))))
+    else:
         letter = find(given, work, _from_start(given, work, exact, _tail(given, work, exact)))
         if k:
             work.answer(_tail(given, work, reading(letter)))
-        return
-    tail = work.answer(_tail(given, work, exact))
-    if k:
-        work.answer(_from_start(given, work, exact, tail))
+
+
+def _in_the_round(given: Given, work: Work, known: Value) -> None:
+    """The return of the rewards that repeat from that of all, and the reward among them from it."""
+    work.say(f"Let $y = R_{{{len(given.first)}}}$.")
+    tail = work.answer(work.equate("y", _from_start(given, work, exact, generator("y")), known))
+    work.answer(work.equate(given.letter, _tail(given, work, exact), tail))
 
 
 def _tail(given: Given, work: Work, read: Callable[[Scalar], Value]) -> Value:
@@ -44,7 +56,10 @@ def _tail(given: Given, work: Work, read: Callable[[Scalar], Value]) -> Value:
 
 def _from_start(given: Given, work: Work, read: Callable[[Scalar], Value], tail: Value) -> Value:
     k = len(given.first)
-    return work.step(RETURN_UNROLLED, t=0, n=k, G={k: tail}, **_known(given, read)) if k else tail
+    if not k:
+        return tail
+    work.say(f"The first {'reward' if k == 1 else f'{k} rewards'} and the rest, $n = {k}$:")
+    return work.step(RETURN_UNROLLED, t=0, n=k, G={k: tail}, **_known(given, read))
 
 
 def _known(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
@@ -56,7 +71,8 @@ def oracle(given: Given) -> Answers:
     """The rewards one by one, until what is left is too small to count."""
     if given.known is not None:
         number = _found(given)
-        return (number, *oracle(with_letter(given, Fraction(number).limit_denominator(10**6)))[:-1])
+        later = oracle(with_letter(given, Fraction(number).limit_denominator(10**6)))[:-1]
+        return (number, *later) if given.letter == "gamma" else (*later, number)
     gamma = at(given.gamma)
     enough = 1 if gamma == 0 else int(min(2_000_000, -36 / np.log(gamma)))  # γ to that power is below 1e-15
     repeated = np.resize([at(reward) for reward in given.repeated], enough)

@@ -158,6 +158,9 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 4.4",
         hint="The action is fixed: average over where it leads, reward plus γ times the value there.",
         place=Place.WORKING,
+        misread={
+            FORGOT_GAMMA: WITHOUT_GAMMA,
+        },
     )
     GREEDY_BY_VALUE = Misconception(
         "by-next-value-alone", "The reward on the way counts too: compare reward plus γ times the next value."

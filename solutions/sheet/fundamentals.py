@@ -1,6 +1,9 @@
 """Section 1 of the sheet: the Markov property, returns and the goal."""
 
-from sympy import Pow, evaluate
+from dataclasses import replace
+from functools import cache
+
+from sympy import Expr, Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, listed, operator, relation, row, variable, word
 from rldrill.problems.pictures import Timeline
@@ -41,6 +44,14 @@ def _is(event: Math, outcome: Math) -> Math:
     return row(event, relation("="), outcome)
 
 
+_TAU = variable("τ")
+
+
+def _of_episode(run: Math) -> Math:
+    """(τ), or (τ₁) where the number of an episode is put in."""
+    return Fence(run if run == _TAU else Script(_TAU, run))
+
+
 tau = letter("tau", "τ")
 reward = letter("reward", "r")
 Episodes = letter("episodes", "E")
@@ -50,11 +61,14 @@ expected_return = letter("expected_return", row(Script(operator("𝔼"), variabl
 Is = quantity("is_", _is)
 Pair = quantity("pair", lambda *items: listed(items))
 Pr = quantity("Pr", conditioned(word("Pr")))
-#: How often three states were seen one after the other, or with what probability.
+#: How often three states were seen one after the other; or with what probability they are.
 N = quantity("N", called("N"))
+Joint = quantity("N", called(word("Pr")))
 Start = quantity("start", called(word("Pr")))
-EpisodePr = quantity("episode_pr", called(word("Pr")))
-EpisodeReturn = quantity("episode_return", called(_R_0))
+#: The probability of an episode, its return, and its return from a time.
+EpisodePr = quantity("episode_pr", lambda run: row(word("Pr"), _of_episode(run)))
+EpisodeReturn = quantity("episode_return", lambda run: row(_R_0, _of_episode(run)))
+ReturnOf = quantity("G", lambda below, run=_TAU: row(Script(variable("R"), below), _of_episode(run)))
 
 GALLERY = Gallery(
     (
@@ -258,3 +272,15 @@ with evaluate(False):
             * ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 2)),
         },
     )
+
+
+@cache
+def of_joint(formula: Formula) -> Formula:
+    """A formula on counts, on joint probabilities in their place."""
+
+    def read(right: Expr) -> Expr:
+        return right.xreplace({count: Joint(*count.args) for count in right.atoms(N)})
+
+    with evaluate(False):
+        misread = {mistake: read(right) for mistake, right in formula.misread.items()}
+        return replace(formula, right=read(formula.right), misread=misread)

@@ -356,6 +356,7 @@ with evaluate(False):
         title="Batch Monte Carlo",
         source="Sutton & Barto 2018, section 6.3",
         hint="Average the returns that were seen after all visits of the state.",
+        note="The sum runs over the times with $s_t = s$.",
         place=Place.BEYOND,
     )
     BATCH_TD = Formula(

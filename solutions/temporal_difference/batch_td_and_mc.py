@@ -59,9 +59,9 @@ def _monte_carlo(given: Given, work: Work, known: dict[str, Any]) -> dict[str, V
     G = dict(enumerate(everything))
     if given.visits == "first":
         known = known | _first_visits(given)
-        work.say("The mean over the first visits of each state in its episodes, $n(s)$ of them:")
+        work.say("Here the sum runs over the first visits to $s$, one in every episode that visits it, $n(s)$ in all:")
     else:
-        work.say("The mean over all visits of each state, $n(s)$ of them:")
+        work.say("The sum runs over all visits to $s$, the times $t$ with $s_t = s$, $n(s)$ in all:")
     return {state: work.step(BATCH_MONTE_CARLO, s=state, G=G, **known) for state in given.states}
 
 
@@ -89,8 +89,8 @@ def _returns(episode: Observed, work: Work, gamma: Value) -> list[Value]:
 
 def _td(given: Given, work: Work, known: dict[str, Any]) -> dict[str, Value]:
     work.say(
-        "TD(0) changes nothing any more when the TD errors of each state sum to $0$ over its $n(s)$ visits, so when "
-        "its value is the mean of its targets:"
+        "TD(0) changes nothing any more when the TD errors of each state sum to $0$ over all its visits, so when its "
+        "value is the mean of its targets, over all $n(s)$ times $t$ with $s_t = s$:"
     )
     solution = work.system(BATCH_TD, V, [{"s": state} for state in given.states], V={END: ZERO}, **known)
     return {state: solution[state] for state in given.states}

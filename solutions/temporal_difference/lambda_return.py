@@ -32,7 +32,7 @@ def solve(given: Given, work: Work) -> None:
     returns = averaged(work, known, given.time)
     if given.in_parts:
         returns = work.answer(returns)
-    work.say(f"The run ends at $T = {known['T']}$.")
+    work.say(f"The {'episode' if known['ends'] else 'run'} ends at $T = {known['T']}$.")
     value = average(work, known, given.time, returns)
     if given.known is None:
         work.answer(value)

@@ -21,7 +21,7 @@ seeds = st.integers(0, 10_000)
 def test_the_smallest_reward_is_more_than_a_glance_at_the_table() -> None:
     for seed in range(40):
         solution = draw("optimal-value", 3, seed)
-        given_, least = solution.problem.given, solution.answers["d"]
+        given_, least = solution.problem.given, solution.answers["c"]
         sought, rows = given_.row, given_.mdp.transitions
         assert least not in [row.reward for row in rows]
         at_once = {
@@ -95,7 +95,6 @@ def test_with_the_reward_that_is_found_the_optimal_values_are_those(seed: int) -
         state: exact(given_.optimum[state]) if state == given_.state else solution.answers["a"]
         for state in given_.mdp.states
     }
-    assert answers["b"][given_.state] == solution.answers["c"][given_.state]
 
 
 @given(seeds)

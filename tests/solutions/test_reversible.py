@@ -8,6 +8,7 @@ from flint import fmpq
 
 from asking import solved
 from rldrill.problems.errors import FileError
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.family import Problem
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import draw
@@ -41,6 +42,14 @@ def test_a_discount_from_a_return_without_an_end() -> None:
     assert solved("return-infinite", first=[3], repeated=[2], gamma="gamma", known=5) == {"a": fmpq(1, 2), "b": 4}
 
 
+def test_a_reward_from_a_return_without_an_end() -> None:
+    # 2 + 2/3·(−3) + 4/9·y = 16/3, so R₂ = y = 12; then (8 + 2/3·x)/(1 − 4/9) = 12, 8 + 2/3·x = 20/3, x = −2.
+    known = {"first": [2, -3], "repeated": [8, "x"], "gamma": "2/3", "known": "16/3"}
+    assert solved("return-infinite", **known) == {"a": 12, "b": -2}
+    # R₁ = 2/(1 − 1/2) = 4; then x + 1/2·4 = 5.
+    assert solved("return-infinite", first=["x"], repeated=[2], gamma="1/2", known=5) == {"a": 4, "b": 3}
+
+
 def test_two_episodes_are_equally_good_at_one_discount() -> None:
     # 4 + 2γ = 2 + 6γ at γ = 1/2; beyond it the larger later reward counts more: the second.
     assert solved("return", rewards=[4, 2], others=[2, 6], gamma="gamma") == {"a": fmpq(1, 2), "b": "B"}
@@ -70,7 +79,8 @@ def test_what_is_found_gives_what_is_known(family: str) -> None:
         given: Any = solution.problem.given
         if getattr(given, "known", None) is None:
             continue
-        letter = solution.answers["a"]
+        asked = f"What is ${shown(Parameter(given.letter))}$?"
+        letter = solution.answers[next(part.label for part in solution.problem.parts if part.ask.endswith(asked))]
         forward = solve(Problem(solution.problem.family, with_letter(given, Fraction(int(letter.p), int(letter.q)))))
         numbers = [
             number

@@ -29,6 +29,7 @@ def test_a_mistake_that_is_ruled_out_changes_nothing(name: str) -> None:
                 if not mistake.applies(solution.problem.given):
                     try:
                         made = solution.answers_with(mistake)
+                        told_apart = made is not None and distinguishable(solution, made)
                     except Exception:  # what its givens have not, nobody can go by
                         continue
-                    assert made is None or not distinguishable(solution, made), (solution.problem.identity, mistake)
+                    assert not told_apart, (solution.problem.identity, mistake)

@@ -202,3 +202,20 @@ def test_numbers_that_are_found_by_hand() -> None:
     mdp = {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "end", 1, 2], ["b", "x", "end", 1, 4]]}
     tie = solved("value-iteration", mdp=mdp, gamma="gamma", sweeps=1, tie="a")
     assert tie == {"a": {"a": 2, "b": 4}, "b": fmpq(1, 4), "c": "B"}
+
+
+def test_a_reward_from_a_value_after_two_sweeps_by_hand() -> None:
+    # V1(a) = max{2 + 1/2·4; 1/2·(4 + 1/2·4) + 1/2·6} = 6. With y = V1(b), go is worth 2 + 1/2·y and try 5 + 1/4·y;
+    # the greater is 7 for y = 8 (go 6), not for y = 10 (try 15/2). In b x + 1/2·4 = 8, so x = 6, and quit is worth 1.
+    # V2(b) = max{6 + 1/2·8; 1} = 10; then go 2 + 1/2·10 = 7, try 1/2·(4 + 1/2·10) + 3 = 15/2; stay 6 + 1/2·10.
+    rows = [["a", "go", "b", 1, 2], ["a", "try", "b", "1/2", 4], ["a", "try", "end", "1/2", 6],
+            ["b", "stay", "b", 1, "x"], ["b", "quit", "end", 1, 1]]  # fmt: skip
+    known = {"mdp": {"transitions": rows}, "gamma": "1/2", "start": {"a": 2, "b": 4}}
+    found = solved("value-iteration", **known, outcome={"a": 7})
+    assert found == {"a": 8, "b": 6, "c": {"b": 10}, "d": {"a": ("try",), "b": ("stay",)}}
+    with pytest.raises(FileError, match="the reward of 'stay' does not follow: another action in 'b' is worth as much"):
+        solved("value-iteration", **known, outcome={"a": 1})
+    with pytest.raises(FileError, match="with no value of 'b' is the best action in 'a' worth 7"):
+        solved("value-iteration", **known | {"gamma": 0}, outcome={"a": 7})
+    with pytest.raises(FileError, match="outcome: give the value after two sweeps of a state that is not 'b'"):
+        solved("value-iteration", **known, outcome={"b": 7})
