@@ -1,6 +1,6 @@
 """The distance from every centre, then its bump; or backwards, from known features. Exponentials stay as they are."""
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from typing import Any
 
 from rldrill.problems.function_approximation.rbf import Given
@@ -18,7 +18,7 @@ from rldrill.solutions.sheet.function_approximation import (
     WIDTH_FROM_RBF,
     logarithm_of_rbf,
 )
-from rldrill.solutions.work import Step, Work
+from rldrill.solutions.work import Equality, Step, Work
 
 MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED)
 
@@ -48,12 +48,14 @@ def solve(given: Given, work: Work) -> None:
         value_of_state(work, given.theta, values)
 
 
-def _with_logarithms(work: Work, sought: str, of: Iterable[int], **known: Any) -> None:
+def _with_logarithms(work: Work, sought: str, of: Mapping[int, Value], **known: Any) -> None:
     """The equations of the features that are known, in which one thing is not."""
     work.recall(RBF)
     work.say("The logarithm of both sides:")
     formula = logarithm_of_rbf()
-    work.lines += [Step(formula, formula.right, {**known, "i": number, "s": "s"}, None, "=") for number in of]
+    for number, logarithm in of.items():
+        step = Step(formula, formula.right, {**known, "i": number, "s": "s"}, None, "=")
+        work.lines.append(Equality(step.left, (logarithm, step.put_in)))
     work.say(f"Solved for {sought}:")
 
 
