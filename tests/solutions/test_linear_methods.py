@@ -272,7 +272,7 @@ def test_a_gain_needs_an_action_that_is_the_best() -> None:
     ("problem", "part", "typed", "name"),
     [
         ("lqr-infinite/1/11", "a", lambda answers: -answers["a"][0, 0], "cost-to-go-given"),
-        ("lqr-backward/2/11", "b", lambda answers: -answers["b"][0, 0], "cost-to-go-given"),
+        ("lqr-backward/2/1", "b", lambda answers: -answers["b"][0, 0], "cost-to-go-given"),
         ("jacobian/1/11", "a", lambda answers: answers["a"].transpose().tolist(), "transposed-jacobian"),
     ],
 )
