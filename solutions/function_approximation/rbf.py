@@ -1,7 +1,10 @@
 """The distance from every centre, then its bump; or backwards, from known features. Exponentials stay as they are."""
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
+
+from sympy import Expr
 
 from rldrill.problems.function_approximation.rbf import Given
 from rldrill.solutions import knowns
@@ -9,6 +12,7 @@ from rldrill.solutions.centres import distances, found, measured, nearest, value
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.putting_in import put_in
+from rldrill.solutions.found import Later
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
@@ -20,7 +24,7 @@ from rldrill.solutions.sheet.function_approximation import (
     WIDTH_FROM_RBF,
     logarithm_of_rbf,
 )
-from rldrill.solutions.work import Equality, Work
+from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED)
 
@@ -56,10 +60,14 @@ def _solved(
     work.say(f"The logarithm of both sides, solved for {sought}:")
     values = {}
     for number, logarithm in logarithms.items():
-        right = put_in(logarithm_of_rbf().right, {**known, "i": number})
-        work.lines.append(Equality(logarithm, (right,)))
+        work.lines.append(Later(partial(_logarithms, logarithm, {**known, "i": number})))
         values[number] = work.step(formula, i=number, **known)
     return values
+
+
+def _logarithms(logarithm: Value, known: dict[str, Any]) -> tuple[Value, Expr]:
+    """The logarithms of both sides of the equation of a feature."""
+    return logarithm, put_in(logarithm_of_rbf().right, known)
 
 
 def oracle(given: Given) -> Answers:

@@ -58,7 +58,7 @@ def test_links_are_not_of_the_same_length_and_joints_not_of_the_same_speed(famil
             assert len(set(numbers)) == len(numbers)
 
 
-def test_velocities_of_joints_are_found_from_a_jacobian_without_zeros_unless_links_lie_alike() -> None:
+def test_velocities_of_joints_are_found_from_a_jacobian_without_zeros() -> None:
     found = [given for given in drawn("jacobian", (3,), 100) if given.velocity]
     assert len(found) > 20
     for given in found:
