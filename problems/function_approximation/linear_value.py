@@ -130,7 +130,7 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 1 or rng.choice((True, False)):
         actions = setting.actions[:count]
         features = tuple(
-            rng.whole(1, 4) if level == 1 else rng.fraction("1/2", "1", "2", "3/2", "3") for _ in range(size)
+            rng.whole(1, 3) if level == 1 else rng.fraction("1/2", "1", "2", "3/2", "3") for _ in range(size)
         )
         return Given(theta=theta, actions=actions, features=features)
     width = rng.whole(4, 6)
