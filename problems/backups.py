@@ -87,7 +87,7 @@ CHANGED: dict[Backup, dict[Change, Backup]] = {
 def legend(*, arcs: bool, ends: bool) -> str:
     """What a reader of such diagrams must know: of arcs and of ends of episodes, where there may be any."""
     arc = " An arc across branches takes their maximum." if arcs else ""
-    end = " A grey square is a terminal state." if ends else ""
+    end = " A square is a terminal state; a dotted line stands for steps that are left out." if ends else ""
     return f"In a backup diagram open circles are states and filled dots are actions.{arc}{end}"
 
 

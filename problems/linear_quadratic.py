@@ -250,14 +250,16 @@ def times(first: int, last: int) -> str:
 
 
 def draw_system(rng: Draws, states: int, price: Scalar) -> dict[str, Any]:
-    """Small matrices of whole numbers: A, B with one action, Q diagonal, R the price."""
+    """Small matrices of whole numbers: A, B with one action, Q diagonal, R the price; none of them is another one."""
     A: Rows
     B: Rows
     Q: Rows
     if states == 1:
-        A, B, Q = ((rng.nonzero(-2, 3),),), ((rng.whole(1, 2),),), ((rng.whole(1, 3),),)
+        b = rng.whole(1, 2)
+        A, B, Q = ((rng.fitting(-2, 3, lambda a: a != b),),), ((b,),), ((rng.fitting(1, 3, lambda q: q != price),),)
     else:
-        A, B, Q = rng.choice(_MOVES), rng.choice(_INPUTS), diagonal(rng.whole(1, 3), rng.whole(1, 2))
+        costs_ = rng.shuffled([Fraction(cost) for cost in (1, 2, 3) if cost != price])
+        A, B, Q = rng.choice(_MOVES), rng.choice(_INPUTS), diagonal(*costs_[:2])
     return {"A": (A,), "B": (B,), "Q": (Q,), "R": (((price,),),)}
 
 

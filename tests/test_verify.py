@@ -644,7 +644,7 @@ def test_the_examples_say_what_their_comments_say() -> None:
         ("return/1/430", "b", "follow-through"),
         ("n-step-return/2/269", "a", "unreadable"),
         ("n-step-return/2/269", "b", "right"),
-        ("bayes-rule/1/7", "a", "right"),
+        ("bayes-rule/1/43", "a", "right"),
         ("return/2/5940", "a", "wrong"),
         ("return/2/5940", "b", "right"),
     ]

@@ -30,7 +30,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Bayes' rule"
 SOURCE = "Thrun, Burgard & Fox 2005, sections 2.2 and 2.4"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -90,20 +90,28 @@ def left_open(chances: Mapping[str, Scalar]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Story:
+    """What is told; the first reading is the more probable, the earlier the hypothesis stands."""
+
     told: str
     hypotheses: tuple[str, ...]
     readings: tuple[str, str]
 
 
 _STORIES = (
-    _Story("A robot stands before a door and looks at it.", ("open", "closed", "ajar"), ("looks open", "looks closed")),
-    _Story("A probe drills for water and reads its sensor.", ("water", "rock", "sand"), ("wet", "dry")),
+    _Story("A robot stands before a door and looks at it.", ("open", "ajar", "closed"), ("looks open", "looks closed")),
+    _Story("A probe drills for water and reads its sensor.", ("water", "sand", "rock"), ("wet", "dry")),
     _Story("A robot does not know where in a corridor it is.", ("west", "middle", "east"), ("door", "wall")),
     _Story("A factory tests whether a motor is sound.", ("sound", "worn", "cracked"), ("quiet", "noisy")),
 )
 
 
 _OPEN, _REST = Parameter("q"), Parameter("1-q")
+#: What q may be as a prior, and the likelihoods of a sensor.
+_SHARES = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "3/4", "1/5", "2/5", "3/5", "4/5")))
+_CHANCES = tuple(
+    tuple(map(Fraction, chances))
+    for chances in (("1/4", "1/2", "3/4"), ("1/5", "2/5", "3/5", "4/5"), ("1/10", "1/5", "1/2", "9/10"))
+)
 #: The greatest denominator of a belief on the way.
 _FINEST = {1: 20, 2: 50, 3: 90}
 
@@ -113,14 +121,15 @@ def draw(level: int, rng: Draws) -> Given:
     story = rng.choice(_STORIES)
     kind = rng.choice(("prior", "likelihood", "open")) if level == 3 else ""
     count = 2 if level == 1 or kind in ("prior", "open") else 2 + rng.below(2)
-    hypotheses = story.hypotheses[:count]
+    hypotheses = story.hypotheses if count == 3 else story.hypotheses[::2]
+    named = rng.choice(hypotheses)
     while True:
-        q = rng.fraction("1/4", "1/3", "1/2", "2/3", "3/4", "1/5", "2/5", "3/5", "4/5") if kind else Fraction(0)
-        prior: tuple[Scalar, ...] = (_OPEN, _REST) if kind in ("prior", "open") else rng.split(count, (2, 3, 4, 5))
-        fifths = rng.choice((("1/4", "1/2", "3/4"), ("1/5", "2/5", "3/5", "4/5"), ("1/10", "1/5", "1/2", "9/10")))
-        likely: dict[str, Scalar] = {name: rng.fraction(*fifths) for name in hypotheses}
+        chances = sorted(rng.sample(rng.choice(_CHANCES), count), reverse=True)
+        likely: dict[str, Scalar] = dict(zip(hypotheses, chances, strict=True))
+        q = rng.choice(_SHARES)
         if kind == "likelihood":
-            likely[rng.choice(hypotheses)] = _OPEN
+            likely[named], q = _OPEN, chances[hypotheses.index(named)]
+        prior: tuple[Scalar, ...] = (_OPEN, _REST) if kind in ("prior", "open") else rng.split(count, (2, 3, 4, 5))
         rest = {name: _REST if isinstance(chance, Parameter) else 1 - chance for name, chance in likely.items()}
         likelihood = dict(zip(story.readings, (likely, rest), strict=True))
         several = kind != "open" and (level == 3 or count == 2 or rng.chance(Fraction(1, 2)))
@@ -130,7 +139,6 @@ def draw(level: int, rng: Draws) -> Given:
             beliefs.append(updated(beliefs[-1], likelihood[reading], q))
         if _is_good(beliefs, _FINEST[level]):
             break
-    named = next((name for name, chance in likely.items() if chance == _OPEN), hypotheses[0])
     return Given(
         prior=dict(zip(hypotheses, prior, strict=True)),
         likelihood={reading: row for reading, row in likelihood.items() if reading in readings},

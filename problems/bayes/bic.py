@@ -227,7 +227,7 @@ def question(given: Given) -> Question:
     cost = "2 k" if criterion == "AIC" else "k ln n"
     rule = Paragraph(
         f'$"{criterion}"(M) = −2 ln p(D_z|M, θ̂) + {cost}$, with the natural logarithm.'
-        + (" The smallest wins." if criterion == "AIC" or len(names) > 2 else "")
+        + (" The smaller one wins." if len(names) == 2 else " The smallest wins.")
     )
     of = "both models" if len(names) == 2 else "every model"
     criteria = Part(f"What is the {criterion} of {of}?", Values(criterion, names), zero=True)

@@ -21,7 +21,7 @@ from rldrill.problems.parts import Matrix, Numbers, Part
 
 TITLE = "Denavit-Hartenberg transforms"
 SOURCE = "Siciliano et al. 2009, section 2.8.2"
-REVISION = 2
+REVISION = 3
 
 
 class Link(Givens):
@@ -106,9 +106,11 @@ def _arms() -> tuple[Mapping[str, Any], ...]:
 def draw(level: int, rng: Draws) -> Given:
     """The pose of one link; of two, or a point seen from two frames; a point through three links, or back."""
     if level == 1:
-        theta = read_angle(rng.choice(("pi/3", "pi/6", "2*pi/3", "-pi/3", "-pi/6", "5*pi/6")))
-        alpha = read_angle(rng.choice(("pi/2", "-pi/2", "pi/3", "pi/6", "-pi/3")))
-        return Given(links=(Link(theta=theta, d=rng.whole(1, 3), a=rng.whole(1, 4), alpha=alpha),), asked="pose")
+        theta = rng.choice(("pi/3", "pi/6", "2*pi/3", "-pi/3", "-pi/6", "5*pi/6"))
+        alpha = rng.choice([twist for twist in ("pi/2", "-pi/2", "pi/3", "pi/6", "-pi/3") if twist != theta])
+        d, a = rng.distinct(2, 1, 4)
+        link = Link(theta=read_angle(theta), d=d, a=a, alpha=read_angle(alpha))
+        return Given(links=(link,), asked="pose")
     arm = rng.choice(_arms())
     asked = rng.choice(("pose", "point") if level == 2 else ("point", "back", "back"))
     count = 3 if level == 3 and (asked == "point" or rng.chance(Fraction(1, 2))) else 2

@@ -15,7 +15,7 @@ from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Forward kinematics"
 SOURCE = "Siciliano et al. 2009, section 2.9.1"
-REVISION = 2
+REVISION = 3
 
 
 class Base(Givens):
@@ -69,23 +69,23 @@ class Given(PlanarArm):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two links at right angles; then at others, every link's end, three links or a base; then a length to be found."""
+    """Two links at right angles; then at others, three links or a base; then a length to be found."""
     if level == 3 and rng.chance(Fraction(3, 4)):
         return _to_find(rng)
-    kind = rng.choice({1: ("plain",), 2: ("plain", "frames", "three", "base"), 3: ("base",)}[level])
+    kind = rng.choice({1: ("plain",), 2: ("plain", "three", "base"), 3: ("base",)}[level])
     count = 3 if level == 3 or kind == "three" else 2
-    lengths = tuple(rng.whole(1, 4) for _ in range(count))
+    lengths = rng.distinct(count, 1, 4)
     base = None
     if kind == "base":
         base = Base(x=rng.nonzero(-2, 3), y=rng.nonzero(-2, 3), phi=read_angle(rng.choice(("pi/6", "pi/3", "-pi/6"))))
     angles = draw_angles(rng, level, count, diagonal=base is None)
-    return Given(lengths=lengths, angles=angles, base=base, frames=kind == "frames")
+    return Given(lengths=lengths, angles=angles, base=base)
 
 
 def _to_find(rng: Draws) -> Given:
     """An arm all of whose angles are multiples of 60°, so that x is rational, with the length of a link left open."""
     count = 2 + rng.below(2)
-    lengths = [rng.whole(1, 5) for _ in range(count)]
+    lengths = rng.distinct(count, 1, 5)
     turns = [rng.nonzero(-2, 3)] + [rng.nonzero(-2, 2) for _ in range(count - 1)]
     x, turned = Fraction(0), Fraction(0)
     for length, turn in zip(lengths, turns, strict=True):

@@ -15,7 +15,7 @@ from rldrill.problems.parts import Matrix, Numbers, Part, YesNo
 
 TITLE = "Jacobian of an arm"
 SOURCE = "Siciliano et al. 2009, section 3.2.1"
-REVISION = 5
+REVISION = 6
 
 _STRAIGHT = (read_angle("0"), read_angle("pi"))
 
@@ -69,33 +69,34 @@ def draw(level: int, rng: Draws) -> Given:
     """Two links, perhaps in a line; then at other angles, or three; then with the orientation, or the joints' rates."""
     singular = rng.chance(Fraction(1, 2))
     count = 3 if level > 1 and rng.chance(Fraction(level - 1, 4)) else 2
-    lengths = tuple((rng.whole(1, 3) if level < 3 else rng.whole(2, 6)) for _ in range(count))
-    rates = tuple(rng.nonzero(-2, 3) for _ in range(count))
+    lengths = rng.distinct(count, 1, 4 if level < 3 else 6)
+    rates = rng.shuffled(_RATES)[:count]
     if level == 3 and count == 2:
-        first, second = rng.choice(_RIGHT), rng.choice((_RIGHT[1], _RIGHT[3]))
+        first, second = rng.choice(_DIAGONAL), rng.choice(_RIGHT)
         return Given(lengths=lengths, angles=(first, second), velocity=_moved(lengths, (first, second), rates))
     first, second, *rest = draw_angles(rng, max(level, 2), count)
     if level == 1:
-        first, second = rng.choice(_SLANTED), rng.choice((_RIGHT[1], _RIGHT[3]))
+        first, second = rng.choice(_SLANTED), rng.choice(_RIGHT)
     if singular:
         second = rng.choice(_STRAIGHT)
-        lengths = (lengths[0], lengths[0] % 3 + 1, *lengths[2:])  # folded back, the end is not at the base
     return Given(lengths=lengths, angles=(first, second, *rest), rates=rates, orientation=level == 3)
 
 
-_RIGHT = tuple(map(read_angle, ("0", "pi/2", "pi", "-pi/2")))
+_RATES = tuple(map(Fraction, (-2, -1, 1, 2, 3)))
+_RIGHT = tuple(map(read_angle, ("pi/2", "-pi/2")))
+_DIAGONAL = tuple(map(read_angle, ("pi/4", "3*pi/4", "-pi/4", "-3*pi/4")))
 _SLANTED = tuple(map(read_angle, ("pi/6", "pi/3", "2*pi/3", "5*pi/6", "-pi/6", "-pi/3")))
 
 
 def _moved(
     lengths: tuple[Fraction, ...], angles: tuple[Angle, ...], rates: tuple[Fraction, ...]
 ) -> tuple[Fraction, Fraction]:
-    """The velocity of the end of an arm whose links stand at right angles: each turns with all joints before it."""
-    quarters, turning, velocity = 0, Fraction(0), (Fraction(0), Fraction(0))
+    """The velocity of the end of an arm along the diagonals, if its joints turn √2 times as fast as these rates."""
+    eighths, turning, velocity = 0, Fraction(0), (Fraction(0), Fraction(0))
     for length, angle, rate in zip(lengths, angles, rates, strict=True):
-        quarters = (quarters + int(angle.number * 2)) % 4
+        eighths = (eighths + int(angle.number * 4)) % 8
         turning += rate
-        cosine, sine = (1, 0, -1, 0)[quarters], (0, 1, 0, -1)[quarters]
+        cosine, sine = (1, -1, -1, 1)[eighths // 2], (1, 1, -1, -1)[eighths // 2]  # times √2
         velocity = (velocity[0] - length * sine * turning, velocity[1] + length * cosine * turning)
     return velocity
 

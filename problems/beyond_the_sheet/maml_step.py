@@ -11,11 +11,11 @@ from rldrill.problems.exact import Exact, Parameter, StepSize, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Numbers, Part
-from rldrill.problems.phrases import in_open, step_size
+from rldrill.problems.phrases import in_open
 
 TITLE = "MAML step"
 SOURCE = "Finn, Abbeel & Levine 2017, section 2.2"
-REVISION = 5
+REVISION = 6
 
 
 class Task(NamedTuple):
@@ -81,15 +81,22 @@ def _drawn_halved(rng: Draws) -> tuple[Fraction, tuple[Task, ...], Fraction]:
 
 
 def _drawn(rng: Draws, count: int) -> tuple[Fraction, tuple[Task, ...], Fraction]:
-    """No two tasks alike, and none that is learnt in one step, so that it would not count."""
+    """No two tasks alike, none that is learnt in one step, so that it would not count, and θ where it does not stay."""
     theta, *optima = rng.distinct(count + 1, -3, 5)
     alpha = rng.fraction("1/2", "1/4" if count < 3 else "1/2")
     curvatures = [Fraction(curve) for curve in (1, 2, 3) if curve * alpha != 1]
-    return theta, tuple(Task(rng.choice(curvatures), optimum) for optimum in optima), alpha
+    tasks = tuple(Task(rng.choice(curvatures), optimum) for optimum in optima)
+    return (theta, tasks, alpha) if _slope(theta, tasks, alpha) else _drawn(rng, count)
+
+
+def _slope(theta: Fraction, tasks: tuple[Task, ...], alpha: Fraction) -> Fraction:
+    """The gradient of the outer loss."""
+    return sum(((1 - alpha * c) ** 2 * c * (theta - m) for c, m in tasks), Fraction(0))
 
 
 def _open(rng: Draws) -> Given:
-    theta, tasks, _ = _drawn(rng, rng.choice((1, 2)))
+    theta, *optima = rng.distinct(3, -3, 5)
+    tasks = tuple(map(Task, rng.shuffled(tuple(map(Fraction, (1, 2)))), optima))
     return Given(theta=theta, tasks=tasks, alpha=Parameter("alpha"), beta=rng.fraction("1/2", "1/4"))
 
 
@@ -104,16 +111,16 @@ def _staying(rng: Draws) -> Given:
 def _step_sought(rng: Draws) -> Given:
     """First β, then what it leads to."""
     theta, tasks, alpha = _drawn(rng, 2)
-    slope = sum((1 - alpha * c) ** 2 * c * (theta - m) for c, m in tasks)
-    if not slope:
-        return _step_sought(rng)
-    return Given(theta=theta, tasks=tasks, alpha=alpha, after=theta - rng.fraction("1/2", "1/4", "1/3", "1/5") * slope)
+    changed = rng.fraction("1/2", "1/4", "1/3", "1/5") * _slope(theta, tasks, alpha)
+    return Given(theta=theta, tasks=tasks, alpha=alpha, after=theta - changed)
 
 
 def question(given: Given) -> Question:
     """The losses; the adapted parameters, then the new shared one; or what is to be found."""
     start = "" if given.theta is None else f"The parameter is $θ = {shown(given.theta)}$. "
-    inner = step_size(given.alpha).replace("step size", "step size of the adaptation")
+    left_open = isinstance(given.alpha, Parameter)
+    alpha = "$α$ of the adaptation is left open" if left_open else f"of the adaptation is $α = {shown(given.alpha)}$"
+    inner = f"The step size {alpha}."
     tasks, adapted, total = _losses(given)
     return Question(
         (
@@ -132,7 +139,7 @@ def _losses(given: Given) -> tuple[tuple[Block, ...], str, str]:
     if len(given.tasks) == 1:
         ((curvature, optimum),) = given.tasks
         told = (
-            "A robot has a parameter $θ$ that is to be adapted to a task. The task has the loss "
+            "A robot has a parameter $θ$ that is to be adapted to a single task, $i = 1$. The task has the loss "
             f"$L_1(θ) = 1/2 · c_1 (θ − m_1)^2$ with $c_1 = {shown(curvature)}$ and $m_1 = {shown(optimum)}$, before "
             "the adaptation as well as after it."
         )

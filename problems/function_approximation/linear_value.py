@@ -27,7 +27,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear action values"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 4
+REVISION = 5
 
 
 class Bumps(Centred):
@@ -130,7 +130,7 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 1 or rng.choice((True, False)):
         actions = setting.actions[:count]
         features = tuple(
-            rng.whole(1, 4) if level == 1 else rng.fraction("1/2", "1", "2", "3/2", "3") for _ in range(size)
+            rng.whole(1, 3) if level == 1 else rng.fraction("1/2", "1", "2", "3/2", "3") for _ in range(size)
         )
         return Given(theta=theta, actions=actions, features=features)
     width = rng.whole(4, 6)
@@ -163,7 +163,7 @@ def _state_sought(rng: Draws, setting: Setting) -> Given:
     side = rng.choice((1, -1))
     first = (rng.nonzero(-3, 5), rng.nonzero(-3, 5))
     second = (first[0] - side * left, first[1] + side * right)
-    start = rng.whole(-2, 4)
+    start = rng.nonzero(-2, 4)
     return Given(
         theta=(*first, *second),
         actions=rng.sample(_ALONG, 2),

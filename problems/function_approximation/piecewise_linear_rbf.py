@@ -29,7 +29,7 @@ from rldrill.problems.parts import Number, Part
 
 TITLE = "Piecewise linear RBF"
 SOURCE = "Lecture sheet; triangular kernel"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Centred):
@@ -71,10 +71,10 @@ class Given(Centred):
         return self
 
 
-#: Steps in the plane, by a width for which some of them lie just outside: a step less, and they would be inside.
+#: Steps in the plane by the width, the first in both directions. Some are just outside: a step less, and they are not.
 _WHOLE_STEPS = {
-    "4": ((0, 1), (0, 2), (0, 3)), "5": ((0, 2), (0, 3), (3, 4)), "9/2": ((0, 1), (0, 3), (3, 4)),
-    "6": ((0, 2), (0, 4), (3, 4)),
+    "5": ((3, 4), (0, 2), (0, 3)), "9/2": ((3, 4), (0, 1), (0, 3)), "6": ((3, 4), (0, 2), (0, 4)),
+    "8": ((3, 4), (0, 4), (0, 6)), "10": ((3, 4), (0, 4), (6, 8)),
 }  # fmt: skip
 #: The same with distances that are roots; the second one never is.
 _STEPS = {
@@ -100,7 +100,7 @@ def draw(level: int, rng: Draws) -> Given:
             far.append(beyond)
         centred = draw_on_a_line(rng, rng.shuffled(far))
     else:
-        width = rng.choice(("4", "6") if valued else tuple(_WHOLE_STEPS))
+        width = rng.choice(("6", "8") if valued else tuple(_WHOLE_STEPS))
         centred = draw_in_the_plane(rng, _WHOLE_STEPS[width][: rng.choice((2, 3))] if valued else _WHOLE_STEPS[width])
     return Given(
         position=centred.position,

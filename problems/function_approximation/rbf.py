@@ -28,7 +28,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
 SOURCE = "Sutton & Barto 2018, section 9.5.5"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Centred):
@@ -72,9 +72,9 @@ class Given(Centred):
         return self
 
 
-#: Steps across and up to a centre in the plane, at whole distances and at others.
-_WHOLE_STEPS = ((0, 1), (0, 2), (0, 3), (3, 4))
-_OTHER_STEPS = ((1, 1), (1, 2), (2, 2), (1, 3), (2, 3))
+#: Steps to a centre in the plane, in one direction and in two.
+_STRAIGHT = ((0, 1), (0, 2), (0, 3))
+_SLANTED = ((1, 1), (1, 2), (2, 2), (1, 3), (2, 3), (3, 4))
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -86,7 +86,8 @@ def draw(level: int, rng: Draws) -> Given:
     elif rng.choice((True, False)):
         centred = draw_on_a_line(rng, rng.distinct(3, 1, 4))
     else:
-        centred = draw_in_the_plane(rng, rng.shuffled(_WHOLE_STEPS[:3])[: rng.choice((2, 3))])
+        steps = (*rng.shuffled(_STRAIGHT)[: rng.choice((1, 2))], rng.choice(_SLANTED))
+        centred = draw_in_the_plane(rng, steps)
     valued = level == 2 and rng.choice((True, False))
     return Given(
         position=centred.position,
@@ -102,7 +103,9 @@ def _width_sought(rng: Draws) -> Given:
     if rng.choice((True, False)):
         centred = draw_on_a_line(rng, rng.distinct(3, 1, 5))
     else:
-        centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[: rng.choice((1, 2))]))
+        centred = draw_in_the_plane(
+            rng, (rng.choice((*_STRAIGHT, _SLANTED[-1])), *rng.shuffled(_SLANTED[:-1])[: rng.choice((1, 2))])
+        )
     squares = [square(centred.position or (), centre) for centre in centred.centres]
     number = rng.choice([n for n, far in enumerate(squares, 1) if far in (1, 4, 9, 16, 25)])
     return Given(

@@ -18,7 +18,7 @@ from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo, label
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
-REVISION = 6
+REVISION = 7
 
 Mu = tuple[Fraction, ...]
 
@@ -40,6 +40,11 @@ class Given(Givens):
         min_length=2,
         max_length=8,
         description="Policies of which the best for the last weights comes next; asks for it, and projects.",
+    )
+    projected: bool = Field(
+        default=True,
+        exclude_if=lambda projected: projected,
+        description="Whether it is projected onto the line to the candidate that comes next, too.",
     )
 
     @model_validator(mode="after")
@@ -63,10 +68,11 @@ _SHARES = ((2, 1), (3, 1), (3, 2), (4, 1), (4, 3), (5, 2), (5, 3))
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One projection of two features; of two or three, or whether it stops; then the next policy and its projection."""
+    """One projection; of three features, whether it stops then, or which policy is next; then that one's projection."""
     if level == 3:
         return _two_steps(rng)
-    size = 2 if level == 1 else rng.choice((2, 3))
+    kind = "plain" if level == 1 else rng.choice(("three", "stops", "three stops", "next"))
+    size = 3 if "three" in kind else 2
     way, (whole, share) = _direction(rng, size), rng.choice(_SHARES)
     rest = _across(rng, way)
     far = dot(rest, rest)
@@ -75,11 +81,22 @@ def draw(level: int, rng: Draws) -> Given:
     if max(share, whole - share) ** 2 * dot(way, way) + far > _FARTHEST:
         return draw(level, rng)
     points = [(Fraction(0),) * size, _scaled(whole, way), _sum(_scaled(share, way), rest)]
+    if kind == "next":
+        return _next(rng, points, rest)
     first, policy, expert = _placed(rng, points)
     given = Given(expert=expert, first=first, policies=(policy,))
-    if level == 2 and rng.chance(Fraction(2, 3)):
-        return given.model_copy(update={"tolerance": _limit(rng, far)})
-    return given
+    return given.model_copy(update={"tolerance": _limit(rng, far)}) if "stops" in kind else given
+
+
+def _next(rng: Draws, points: Sequence[Mu], weights: Mu) -> Given:
+    """Three policies to choose from, of which the weights after the projection tell the best."""
+    while True:
+        candidates = [tuple(rng.whole(int(x) - 4, int(x) + 4) for x in points[-1]) for _ in range(3)]
+        if len({dot(weights, candidate) for candidate in candidates}) == len(candidates):
+            break
+    first, policy, expert, *placed = _placed(rng, [*points, *candidates])
+    named = dict(zip("ABC", placed, strict=True))
+    return Given(expert=expert, first=first, policies=(policy,), candidates=named, projected=False)
 
 
 #: The largest square of a distance from the expert.
@@ -190,8 +207,10 @@ def question(given: Given) -> Question:
         options = {name: f"$μ(π) = ({', '.join(map(shown, mu))})$" for name, mu in given.candidates.items()}
         best = f"the one of these with the greatest $w^⊤ μ(π)$ for the weights of ({label(len(parts) - 1)})"
         parts.append(Part(f"The next policy $π_{count + 1}$ is {best}. Which one?", Choice(options)))
-        parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{count + 1}$?", point))
-    last = count + bool(given.candidates)
+    last = count
+    if given.candidates and given.projected:
+        last += 1
+        parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{last}$?", point))
     parts.append(Part(f"What is the remaining distance $‖w‖$ to the expert after $π_{last}$?", Number()))
     if given.tolerance is not None:
         parts.append(Part(f"The method stops when $‖w‖ ≤ {shown(given.tolerance)}$. Does it stop now?", YesNo()))

@@ -140,13 +140,13 @@ def question(given: Given) -> Question:
         Paragraph("Each state has a feature vector $φ(s)$:"),
         features_table(given.features, "s", "φ", "s"),
         Paragraph(
-            "An expert's behaviour was recorded in these trajectories; no features count after the last state of each:"
+            "An expert followed its policy $π$ along these trajectories; nothing counts after the last state of each:"
         ),
         Table(header=("trajectory", *(f"$s_{{{time}}}$" for time in range(longest))), rows=rows),
         Paragraph(discount(given.gamma) if given.estimate is None else unknown("gamma")),
     )
     if given.estimate is not None:
-        told = f"The estimate for the expert's policy is $μ_1(π) = {shown(given.estimate)}$."
+        told = f"The estimate is $μ_1(π) = {shown(given.estimate)}$."
         others = tuple(f"μ_{{{index}}}(π)" for index in range(2, given.size + 1))
         rest = (
             Part("What is the estimate of $μ_2(π)$ then?", Number())
@@ -155,5 +155,5 @@ def question(given: Given) -> Question:
         )
         return Question(blocks, (Part(f"{told} What is the discount $γ$?", Number()), rest))
     opened = in_open(given)
-    ask = f"What is the estimate of the feature expectations $μ(π)$ of the expert's policy{opened}?"
+    ask = f"What is the estimate of the feature expectations $μ(π)$ from them{opened}?"
     return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}(π)" for index in range(1, given.size + 1)))),))

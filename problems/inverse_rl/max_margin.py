@@ -17,7 +17,7 @@ from rldrill.problems.parts import Number, Numbers, Part, Values
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
-REVISION = 6
+REVISION = 7
 #: Constraints that hold without slack hold with any, and some need more.
 DISTRACTORS = ("slack",)
 
@@ -103,6 +103,8 @@ def draw(level: int, rng: Draws) -> Given:
             )
             for number in range(1, count + 1)
         }
+        if len({expert, *(rival.mu for rival in policies.values())}) <= count:
+            continue  # no weights tell two of them apart
         given = Given(w=w, expert=expert, policies=policies)
         missing = given.missing.values()
         if level == 3:
@@ -163,7 +165,7 @@ def question(given: Given) -> Question:
     if given.asked_for:
         letter = shown(given.asked_for)
         equal = (
-            f"For each constraint, that of the policy $π$: with which ${letter}(π)$ are both sides equal if $ξ = 0$?"
+            f"For which ${letter} = {letter}(π)$ are both sides of the constraint of the policy $π$ equal if $ξ = 0$?"
         )
         return Question(
             blocks,

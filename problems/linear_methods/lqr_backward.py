@@ -25,7 +25,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR over a finite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 4
+REVISION = 5
 
 
 class Given(LinearQuadratic, Conventional):

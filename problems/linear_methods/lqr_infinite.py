@@ -28,7 +28,7 @@ from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 7
+REVISION = 8
 _LARGEST = 6
 
 
@@ -126,7 +126,8 @@ def _price(rng: Draws) -> Given:
     while True:
         sign = rng.choice((1, -1))
         a, c = (sign * Fraction(text) for text in rng.choice(_LOOPS))
-        b, gamma = rng.whole(1, 2), rng.fraction("1", "1", "1/2", "2/3")
+        b = rng.choice([b for b in map(Fraction, (1, 2)) if b != a])
+        gamma = rng.fraction("1", "1", "1/2", "2/3")
         r = rng.whole(1, 6)
         q = r * (a - c) * (1 - gamma * a * c) / (gamma * b**2 * c)
         if rng.chance(Fraction(1, 2)):
@@ -147,12 +148,21 @@ _LOOPS = (
 )  # fmt: skip
 
 
+def _numbers() -> Iterator[tuple[int, int, int, int]]:
+    """Whole numbers A, B, Q and R; with A = B or Q = R nobody would see that they were mixed up."""
+    return (
+        (a, b, q, r)
+        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 11), range(1, 9))
+        if a != b and q != r
+    )
+
+
 @cache
 def _scalars() -> tuple[tuple[Fraction, ...], ...]:
     """Whole numbers A, B, Q, R of scalar systems in which the root comes out."""
     return tuple(
         (Fraction(a), Fraction(b), Fraction(q), Fraction(r))
-        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 9), range(1, 7))
+        for a, b, q, r in _numbers()
         if _is_square(Fraction((b**2 * q + (a**2 - 1) * r) ** 2 + 4 * b**2 * q * r))
     )
 
@@ -162,7 +172,7 @@ def _discounted() -> tuple[tuple[Fraction, ...], ...]:
     """Scalar systems with a discount in which the root comes out."""
     return tuple(
         (Fraction(a), Fraction(b), Fraction(q), Fraction(r), gamma)
-        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 9), range(1, 7))
+        for a, b, q, r in _numbers()
         for gamma in (Fraction(1, 2), Fraction(1, 4), Fraction(3, 4), Fraction(2, 3))
         if _is_square((gamma * b**2 * q + (gamma * a**2 - 1) * r) ** 2 + 4 * gamma * b**2 * q * r)
     )
@@ -173,7 +183,7 @@ def _crossed() -> tuple[tuple[Fraction, ...], ...]:
     """Scalar systems with a cross term in which the root comes out."""
     return tuple(
         (Fraction(a), Fraction(b), Fraction(q), Fraction(r), Fraction(n))
-        for a, b, q, r in product((-2, -1, 1, 2), (1, 2), range(1, 9), range(1, 7))
+        for a, b, q, r in _numbers()
         for n in (-2, -1, 1, 2)
         if q * r > n**2
         and _is_square(Fraction(b**2 * q + (a**2 - 1) * r - 2 * a * b * n) ** 2 + 4 * b**2 * (q * r - n**2))
@@ -245,8 +255,8 @@ def _parts(given: Given) -> Iterator[Part]:
     if given.closed_loop is not None:
         of = "states" if given.unknown == "Q" else "actions"
         loop = f"under the best actions the closed loop is $A − B {L} = {shown(given.closed_loop)}$"
-        yield Part(f"The price $ρ$ is unknown, but {loop}. What is the price $ρ$ of the {of}?", Number())
-        yield Part(f"What is ${P}$ then?", Number())
+        yield Part(f"The price $ρ$ is unknown, but {loop}. What is ${P}$?", Number())
+        yield Part(f"What is the price $ρ$ of the {of}?", Number())
         return
     yield Part(f"What is ${P}$?", Matrix(n, n))
     yield Part(f"What is the gain ${L}$?", Matrix(m, n))

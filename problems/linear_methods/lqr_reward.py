@@ -17,7 +17,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR reward"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 5
+REVISION = 6
 
 Line = tuple[Fraction, ...]
 
@@ -82,11 +82,13 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 #: The largest reward of a level.
-_MOST = {1: 30, 2: 45, 3: 200}
+_MOST = {1: 40, 2: 45, 3: 200}
 
 
 def _gain(rng: Draws, states: int) -> Line:
-    return tuple(rng.nonzero(-1, 2) if states > 1 else rng.fraction("1/2", "1", "2", "3/2") for _ in range(states))
+    return tuple(
+        rng.nonzero(-1, 2) if states > 1 else rng.fraction("1/2", "-1/2", "2", "-2", "3/2") for _ in range(states)
+    )
 
 
 def _size(number: Fraction) -> int:

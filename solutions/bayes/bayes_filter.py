@@ -36,7 +36,8 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
     if given.outcome is not None:
         state, share = given.outcome.state, exact(given.outcome.probability)
         weighed = (state,) if moves[-1] is _weighed else states
-        belief = _moves(given.run[0], work, moves, start, {**known, "weighed": weighed})
+        first = known | {"weighed": weighed} | ({"label": '"step" 1'} if len(given.run) > 1 else {})
+        belief = _moves(given.run[0], work, moves, start, first)
         value = work.answer(work.equate(given.left_open[0], belief[state], share))
         if len(states) == 2:
             (other,) = (name for name in states if name != state)

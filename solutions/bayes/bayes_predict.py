@@ -6,7 +6,8 @@ from typing import Any
 from rldrill.problems.bayes.bayes_predict import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import exact, told
+from rldrill.solutions.found import put_in_found
 from rldrill.solutions.oracle import OPEN, Answers, at
 from rldrill.solutions.sheet.bayes import MOTION_AS_LIKELIHOOD, MOTION_TRANSPOSED, PREDICT
 from rldrill.solutions.work import Work
@@ -23,18 +24,22 @@ def solve(given: Given, work: Work) -> None:
     if given.outcome is not None:
         *earlier, last = actions[: given.after]
         state, letter = given.outcome.state, given.left_open[0]
-        moved = belief
+        moved, before = belief, []
         for place, action in enumerate(earlier, 1):
             work.say(f"The action {action} gives:")
             moved = _moved(work, action, moved, motion, f'"step" {place}')
+            before.append(moved)
         if earlier:
             work.say(f"The next action, {last}, gives:")
         label = f'"step" {given.after}' if len(actions) > 1 else None
         there = work.step(PREDICT, s1=state, a=last, p=moved, motion=motion, states=states, label=label)
         found = work.answer(work.equate(letter, there, exact(given.outcome.probability)))
         belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
-        for place, action in enumerate(earlier, 1):
-            belief = work.answer(_moved(work, action, belief, motion, f'"step" {place}'))
+        for then in before:
+            work.say(f"With ${letter} = {told(found)}$ this is:")
+            belief = work.answer(
+                {state: put_in_found(work, PREDICT, letter, there, found, s1=state) for state, there in then.items()}
+            )
         if len(actions) > given.after:
             work.say(f"With this ${letter}$ the {'first' if given.after == 1 else 'next'} action gives:")
             belief = _moved(work, last, belief, motion, label)

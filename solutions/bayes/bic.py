@@ -69,7 +69,7 @@ def _taken_apart(number: Value) -> str:
         return ""
     written = to_sympy(tidy(sympy.log(to_sympy(number))))
     factor, logarithm = written.as_coeff_Mul()
-    if factor in (1, -1) and isinstance(logarithm, sympy.log):
+    if factor == 1 and isinstance(logarithm, sympy.log):
         return ""
     terms = sorted(
         (term.as_coeff_Mul() for term in sympy.Add.make_args(written)),

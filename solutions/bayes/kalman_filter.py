@@ -7,13 +7,11 @@ from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import Value, exact, to_sympy
-from rldrill.solutions.formula.finding import with_number
-from rldrill.solutions.formula.putting_in import indexed
+from rldrill.solutions.found import put_in_found
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.matrices import identity, matrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.rational import with_found
 from rldrill.solutions.sheet.bayes import (
     GAIN_ON_PREDICTION,
     KALMAN_COVARIANCE,
@@ -25,7 +23,7 @@ from rldrill.solutions.sheet.bayes import (
     VARIANCES_FOR_INVERSES,
     without_command,
 )
-from rldrill.solutions.work import Equality, Work
+from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (GAIN_ON_PREDICTION, VARIANCES_FOR_INVERSES, PROCESS_NOISE_FORGOTTEN)
 
@@ -78,11 +76,8 @@ def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) ->
     after = work.step(KALMAN_COVARIANCE, **known)[0, 0]
     found = work.answer(work.equate("w", after, variance))
     known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
-    gain = matrix([[with_found(known["Kt"][1][0, 0], found)]])
     work.say(f"With $w = {to_sympy(found)}$ the gain is:")
-    put_in = with_number(known["Kt"][1].tolist(), "w", found)
-    work.lines.append(Equality(indexed(KALMAN_GAIN.left, {"t": 1}), (put_in, gain)))
-    known["Kt"] = {1: gain}
+    known["Kt"] = {1: matrix([[put_in_found(work, KALMAN_GAIN, "w", known["Kt"][1][0, 0], found, t=1)]])}
     work.answer(work.step(KALMAN_MEAN, **known)[0, 0])
 
 

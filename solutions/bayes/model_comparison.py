@@ -72,8 +72,8 @@ def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -
         return work.step(FIXED_COIN, M=name, share=exact(model.theta), **tosses)
     if model.thetas is not None:
         thetas, priors = ({i: exact(pair[which]) for i, pair in enumerate(model.thetas, 1)} for which in (0, 1))
-        work.say(f"In “{name}” there are $n = {len(thetas)}$ values $θ_i$, with the probabilities $p(θ_i)$:")
-        return work.step(few_values(), M=name, theta_at=thetas, prior_at=priors, n=len(thetas), **tosses)
+        work.say(f"In “{name}” there are $m = {len(thetas)}$ values $θ_i$, with the probabilities $p(θ_i)$:")
+        return work.step(few_values(), M=name, theta_at=thetas, prior_at=priors, count=len(thetas), **tosses)
     if model.a == model.b == 1:
         uniform = Note(
             "If $θ$ is unknown, the evidence is the mean of the likelihood over the prior; with a uniform prior that "

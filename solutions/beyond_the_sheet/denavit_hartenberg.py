@@ -58,6 +58,8 @@ def _pose(work: Work, known: dict[str, Any]) -> None:
     of_link, of_chain = rotations()
     turns = {link: work.step(of_link, i=link, **known) for link in known["th"]}
     total = turns[first]
+    if others:
+        work.say("The product begins with $R = R_1$:")
     for link in others:
         total = work.step(of_chain, Rtotal=total, rotation=turns, i=link, label=f"i = {link}")
     work.answer(total)
@@ -87,21 +89,10 @@ def _through(given: Given, work: Work, known: dict[str, Any], point: AnyMatrix) 
     if outwards:
         work.say("From $p_{i−1} = R_i p_i + o_i$ follows $p_i = R_i^{−1} (p_{i−1} − o_i)$, and $R_i^{−1} = R_i^⊤$.")
     for link in links if outwards else links[::-1]:
-        transform = work.step(LINK_TRANSFORM, i=link, **known)
         formula, here = (BACK_POINT, link - 1) if outwards else (FORWARD_POINT, link)
-        parts = {"rotation": {link: _corner(transform)}, "origin": {link: _column(transform)}}
-        moved = work.step(formula, i=link, point={here: point}, **parts)
+        turn, shift = (work.step(part, i=link, **known) for part in (rotations()[0], LINK_ORIGIN))
+        moved = work.step(formula, i=link, point={here: point}, rotation={link: turn}, origin={link: shift})
         point = matrices.column(work.answer(tuple(moved.entries())))
-
-
-def _corner(transform: AnyMatrix) -> AnyMatrix:
-    """The rotation of a transform."""
-    return matrices.matrix(line[:3] for line in transform.tolist()[:3])
-
-
-def _column(transform: AnyMatrix) -> AnyMatrix:
-    """The origin of a transform."""
-    return matrices.column(line[3] for line in transform.tolist()[:3])
 
 
 def oracle(given: Given) -> Answers:

@@ -4,17 +4,20 @@ from typing import Any
 
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
-from rldrill.solutions.exact import ONE, NoSolution, exact, is_zero
+from rldrill.solutions.exact import ONE, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import (
     ABSOLUTE_ANGLES,
+    DETERMINANT,
     END_POINT_VELOCITY,
+    FIRST_RATE,
     JACOBIAN_X,
     JACOBIAN_Y,
     JOINT_RATES,
+    SECOND_RATE,
     SINGULAR,
 )
 from rldrill.solutions.slips import right_answers
@@ -32,12 +35,7 @@ def solve(given: Given, work: Work) -> None:
         rows.append([ONE for _ in joints])
     J = work.answer(matrices.matrix(rows))
     if given.velocity is not None:
-        wanted = matrices.column(map(exact, given.velocity))
-        try:
-            found = work.step(JOINT_RATES, Jac=J, velocity=wanted)
-        except NoSolution:
-            raise NoSolution("the configuration is singular, so that no or many angular velocities do this") from None
-        work.answer(tuple(found.entries()))
+        _rates(work, J, *map(exact, given.velocity))
         return
     _velocity(given, work, J)
     if given.square:
@@ -46,6 +44,17 @@ def solve(given: Given, work: Work) -> None:
         singular = is_zero(det)
         work.say(f"$det J {'=' if singular else '≠'} 0$: the configuration is {'' if singular else 'not '}singular.")
         work.answer(singular)
+
+
+def _rates(work: Work, J: AnyMatrix, x: Value, y: Value) -> None:
+    """The two equations of the velocity, solved with the determinant."""
+    work.recall(JOINT_RATES)
+    along_x, along_y = (dict(enumerate(row, 1)) for row in J.tolist())
+    known: dict[str, Any] = {"Jx": along_x, "Jy": along_y, "vx": x, "vy": y}
+    known["detJ"] = work.step(DETERMINANT, **known)
+    if is_zero(known["detJ"]):
+        raise NoSolution("the configuration is singular, so that no or many angular velocities do this")
+    work.answer((work.step(FIRST_RATE, **known), work.step(SECOND_RATE, **known)))
 
 
 def _reduced(given: Given) -> str:

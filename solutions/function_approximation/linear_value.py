@@ -5,9 +5,10 @@ from collections.abc import Callable, Mapping, Sequence
 from rldrill.problems.exact import Parameter
 from rldrill.problems.function_approximation.linear_value import Bumps, Given
 from rldrill.solutions.centres import distances, measured
-from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact, told
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.found import put_in_found
 from rldrill.solutions.greedy import greedy
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -81,10 +82,14 @@ def _state_sought(given: Given, bumps: Bumps, work: Work, places: Callable[[Give
     both = _values(given, work, _inside(work, x - exact(left), exact(right) - x, width), places, given.actions)
     work.say("The two are equal where")
     state = work.answer(work.equate("x", *both.values()))
-    there = _inside(work, state - exact(left), exact(right) - state, width)
-    work.answer(next(iter(_values(given, work, there, places, given.actions[:1]).values())))
-    at_centre = _inside(work, ZERO, exact(right) - exact(left), width)
-    _greedy(work, _values(given, work, at_centre, places, given.actions), given.actions)
+    work.answer(_at(work, given.actions[0], both, state))
+    work.say(f"At $c_1$, where $x = {told(exact(left))}$:")
+    _greedy(work, {("s", a): _at(work, a, both, exact(left)) for a in given.actions}, given.actions)
+
+
+def _at(work: Work, action: str, values: Mapping[tuple[str, str], Value], place: Value) -> Value:
+    """The value of an action at a place that is put in for x."""
+    return put_in_found(work, LINEAR_VALUE, "x", values["s", action], place, s="s", a=action)
 
 
 def _inside(work: Work, from_left: Value, from_right: Value, width: Value) -> tuple[Value, ...]:

@@ -1,12 +1,18 @@
 """The distance from every centre, then its bump; or backwards, from known features. Exponentials stay as they are."""
 
-from collections.abc import Iterable
+from collections.abc import Mapping
+from functools import partial
 from typing import Any
+
+from sympy import Expr
 
 from rldrill.problems.function_approximation.rbf import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.centres import distances, found, measured, nearest, value_of_state
 from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.putting_in import put_in
+from rldrill.solutions.found import Later
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
@@ -18,7 +24,7 @@ from rldrill.solutions.sheet.function_approximation import (
     WIDTH_FROM_RBF,
     logarithm_of_rbf,
 )
-from rldrill.solutions.work import Step, Work
+from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED)
 
@@ -26,20 +32,18 @@ MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED)
 def solve(given: Given, work: Work) -> None:
     """What is missing first, then centre by centre, then the weighted sum."""
     logarithms = knowns.values(given.logarithms)
-    known: dict[str, Any] = {"log_phi": {(number, "s"): value for number, value in logarithms.items()}}
+    known: dict[str, Any] = {"s": "s", "log_phi": {(number, "s"): value for number, value in logarithms.items()}}
     if given.sigma is not None:
         known["sigma"] = exact(given.sigma)
     others = tuple(number for number in range(1, len(given.centres) + 1) if number not in logarithms)
     state: tuple[Value, ...] = ()
     if given.position is None:
-        _with_logarithms(work, "the distance", logarithms, sigma=known["sigma"])
-        far = {number: work.step(DISTANCE_FROM_RBF, s="s", i=number, **known) for number in logarithms}
+        far = _solved(work, DISTANCE_FROM_RBF, "the distance", logarithms, known)
         state = (work.answer(found(given, work, far)),)
     if given.sigma is None:
-        (number,) = logarithms
-        measures = distances(given, work, of=logarithms)
-        _with_logarithms(work, "$σ$", logarithms, **measures)
-        known["sigma"] = work.answer(work.step(WIDTH_FROM_RBF, i=number, **known, **measures))
+        known |= distances(given, work, of=logarithms)
+        (sigma,) = _solved(work, WIDTH_FROM_RBF, "$σ$", logarithms, known).values()
+        known["sigma"] = work.answer(sigma)
     known |= distances(given, work, state, of=others)
     values = tuple(work.step(RBF, i=number, **known) for number in others)
     if values:
@@ -48,13 +52,22 @@ def solve(given: Given, work: Work) -> None:
         value_of_state(work, given.theta, values)
 
 
-def _with_logarithms(work: Work, sought: str, of: Iterable[int], **known: Any) -> None:
-    """The equations of the features that are known, in which one thing is not."""
+def _solved(
+    work: Work, formula: Formula, sought: str, logarithms: Mapping[int, Value], known: dict[str, Any]
+) -> dict[int, Value]:
+    """What the equation of every feature that is known gives for the one thing in it that is not."""
     work.recall(RBF)
-    work.say("The logarithm of both sides:")
-    formula = logarithm_of_rbf()
-    work.lines += [Step(formula, formula.right, {**known, "i": number, "s": "s"}, None, "=") for number in of]
-    work.say(f"Solved for {sought}:")
+    work.say(f"The logarithm of both sides, solved for {sought}:")
+    values = {}
+    for number, logarithm in logarithms.items():
+        work.lines.append(Later(partial(_logarithms, logarithm, {**known, "i": number})))
+        values[number] = work.step(formula, i=number, **known)
+    return values
+
+
+def _logarithms(logarithm: Value, known: dict[str, Any]) -> tuple[Value, Expr]:
+    """The logarithms of both sides of the equation of a feature."""
+    return logarithm, put_in(logarithm_of_rbf().right, known)
 
 
 def oracle(given: Given) -> Answers:

@@ -47,6 +47,7 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         weights = dict(zip(features, pointing, strict=True))
     if given.candidates:
         mu = _next(given.candidates, work, weights)
+    if given.candidates and given.projected:
         known |= {"mu_now": mu, "mu_bar": point}
         moved = work.answer(_moved(work, features, known, _length(work, known)))
         point = dict(zip(features, moved, strict=True))
@@ -120,8 +121,10 @@ def oracle(given: Given) -> Answers:
     if given.candidates:
         mus = {name: np.array([at(value) for value in mu]) for name, mu in given.candidates.items()}
         best = sorted(mus, key=lambda name: float(mus[name] @ (expert - point)))[-1]
-        point = _nearest(point, mus[best], expert)
-        answers += [best, point]
+        answers.append(best)
+        if given.projected:
+            point = _nearest(point, mus[best], expert)
+            answers.append(point)
     left = np.linalg.norm(expert - point)
     return [*answers, left] + ([bool(left <= at(given.tolerance) + 1e-12)] if given.tolerance is not None else [])
 

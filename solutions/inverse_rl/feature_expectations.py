@@ -33,7 +33,8 @@ def solve(given: Given, work: Work) -> None:
         "runs": exact(len(runs)),
     }
     work.recall(FEATURE_EXPECTATIONS)
-    several = "mean over the trajectories, whose sums come first" if len(runs) > 1 else "sum along the one trajectory"
+    mean = f"mean over the $m = {len(runs)}$ trajectories, whose sums come first"
+    several = mean if len(runs) > 1 else "sum along the one trajectory"
     work.say(f"The expectation is estimated by the {several}:")
     if given.estimate is None:
         work.answer(_estimates(work, known, range(1, given.size + 1)))

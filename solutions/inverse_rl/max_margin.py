@@ -64,8 +64,10 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
     least = work.answer(least)
     enough = largest(tuple(least.values()))
     each = ", ".join(f"{letter} ≥ {value}" for value in least.values())
+    place = given.w.index(letter)
+    more = ", ".join(f"{shown(given.expert[place])} > {shown(rival.mu[place])}" for rival in given.policies.values())
     work.say(
-        "The expert has more of this feature than every other policy, so each constraint is a lower "
+        f"The expert has more of feature ${place + 1}$ than every other policy, ${more}, so each constraint is a lower "
         f"bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$, so the smallest one "
         f"is ${enough}$.".replace("-", "−")
     )

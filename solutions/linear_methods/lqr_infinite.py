@@ -17,7 +17,7 @@ from rldrill.solutions.formula.putting_in import put_in, sum_of
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.rational import generator
+from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.riccati import Regulator, stationary
 from rldrill.solutions.sheet.linear_methods import (
     OTHER_ROOT,
@@ -108,17 +108,15 @@ def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator)
     unknown = generator(P)
     if given.unknown == "Q":
         work.say(f"The formula of the gain contains no price, and gives ${P}$:")
-        value = work.equate(P, best(unknown), gain)
+        value = work.answer(work.equate(P, best(unknown), gain))
         work.say(f"Now the equation of ${P}$ gives the price:")
         work.answer(work.equate("rho", riccati(value), value))
     else:
         work.say(f"The equation of ${P}$ contains no price, and gives ${P}$:")
-        value = work.equate(P, unknown, riccati(unknown))
+        slope, constant = linear(riccati(unknown), P)
+        value = work.answer(work.equate(P, unknown * (1 - slope), constant))
         work.say("Now the formula of the gain gives the price:")
         work.answer(work.equate("rho", best(value), gain))
-    work.say("It has been found on the way:")
-    work.lines.append(Equality(to_sympy(unknown), (value,)))
-    work.answer(value)
 
 
 def _single(entry: Value) -> AnyMatrix:
@@ -156,14 +154,14 @@ def _in_costs(given: Given) -> str:
     return f"$P$ is the {what} of the value; for the cost-to-go, $S = −P$, it reads {riccati}."
 
 
-def _which(given: Given, value: str) -> str:
-    """Why one of the two roots is the value."""
-    what, never, side = (
-        ("a cost", "negative", "positive") if given.notation.costs else ("a value", "positive", "negative")
-    )
+def _which(given: Given, value: str, product: Value, cost: Value) -> str:
+    """Why one of the two roots is the value: their product is not positive."""
+    what, never, side = ("cost", "negative", "positive") if given.notation.costs else ("reward", "positive", "negative")
+    one = f"is negative, so one of them is {side}" if product != 0 else f"is $0$, so at most one of them is {side}"
+    why = f", since $Q R − N^2 = {told(cost)}$ is not negative" if given.N else ""
     return (
-        f"The product of the two roots is not positive, so at most one of them is {side}; {what} here is never "
-        f"{never}, so ${value}$ is that one."
+        f"The product of the two roots, ${told(product)}$, {one}. No {what} is {never}{why}, and neither is a sum "
+        f"of them: ${value}$ is that root."
     )
 
 
@@ -210,7 +208,9 @@ def _root(work: Work, given: Given, numbers: Mapping[str, fmpq], modes: Modes = 
     if work.misconception is None:  # nobody reads the working of a mistake
         work.lines += _quadratic(given, system, known, numbers, beta)
     if mode <= 1:
-        work.say(_which(given, _letter(given.notation.value, modes, mode)))
+        squares = q * r - n * n
+        product = -squares / (gamma * b * b)
+        work.say(_which(given, _letter(given.notation.value, modes, mode), product, squares))
     found: Value = work.step(system.root, **known)
     if is_rational(found) and found != 0 and (other := (n * n - q * r) / (gamma * b * b * found)) != 0:
         side = "negative" if given.notation.costs else "positive"
@@ -434,4 +434,4 @@ def _priced(given: Given) -> Answers:
         S, _, loop = oracle(priced)
         wide = abs(loop[0, 0]) > abs(at(given.closed_loop or 0))
         prices[int(wide == (given.unknown == "R"))] = middle
-    return (middle, S[0, 0])
+    return (S[0, 0], middle)

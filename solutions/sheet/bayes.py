@@ -88,6 +88,7 @@ free_of = quantity("free_of", subscripted("k"))
 bic = quantity("bic", called(word("BIC")))
 aic = quantity("aic", called(word("AIC")))
 theta_at = quantity("theta_at", subscripted(_THETA))
+count = letter("count", "m")
 prior_at = quantity("prior_at", lambda index: row(variable("p"), Fence(Script(_THETA, index))))
 
 # Samples and lines
@@ -589,7 +590,7 @@ def few_values() -> Formula:
     with evaluate(False):
         return replace(
             FIXED_COIN,
-            right=SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, n)),
+            right=SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, count)),
             title="Evidence of a coin whose θ is one of a few values",
             source="MacKay 2003, section 3.2, with a sum for the integral",
             hint="Weight the likelihood at every possible θ by the prior of that θ, and add.",

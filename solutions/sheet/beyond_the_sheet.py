@@ -37,6 +37,8 @@ Jx, Jy = quantity("Jx", _jacobian_entry("x")), quantity("Jy", _jacobian_entry("y
 Jacobian = letter("Jac", "J", matrix=True)
 rates, velocity = letter("rates", "ω", matrix=True), letter("velocity", "v", matrix=True)
 determinant = letter("detJ", row(word("det"), variable("J")))
+rate = quantity("rate", subscripted("ω"))
+vx, vy = (letter(f"v{axis}", Script(variable("v"), variable(axis))) for axis in "xy")
 
 with evaluate(False):
     ABSOLUTE_ANGLES = Misconception(
@@ -108,6 +110,33 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 3.5",
         hint="Solve v = J ω for ω; two equations, or the inverse of J.",
         place=Place.BEYOND,
+    )
+    DETERMINANT = Formula(
+        "jacobian-determinant-by-entries",
+        determinant,
+        Jx(1) * Jy(2) - Jx(2) * Jy(1),
+        title="Determinant of a Jacobian with two rows and columns",
+        source="Siciliano et al. 2009, section 3.3",
+        hint="The product of the diagonal, minus that of the other two entries.",
+        place=Place.WORKING,
+    )
+    FIRST_RATE = Formula(
+        "jacobian-inverse-1",
+        rate(1),
+        (Jy(2) * vx - Jx(2) * vy) / determinant,
+        title="Velocity of the first of two joints",
+        source="Siciliano et al. 2009, section 3.5",
+        hint="The first row of the inverse of J holds the entries of the second column, over the determinant.",
+        place=Place.WORKING,
+    )
+    SECOND_RATE = Formula(
+        "jacobian-inverse-2",
+        rate(2),
+        (Jx(1) * vy - Jy(1) * vx) / determinant,
+        title="Velocity of the second of two joints",
+        source="Siciliano et al. 2009, section 3.5",
+        hint="The second row of the inverse of J holds the entries of the first column, over the determinant.",
+        place=Place.WORKING,
     )
     SINGULAR = Formula(
         "jacobian-determinant",

@@ -199,17 +199,17 @@ def test_a_line_is_edited_and_what_was_typed_before_comes_back(tmp_path: Path) -
     assert terminal.ends() == 0
 
 
-#: S = 4I, so R + BᵀSB = [23 4; 4 9], with determinant 191, and BᵀSA = [16 12; 8 0]: L = [112 108; 120 −48]/191.
-GAIN = "lqr-gain/3/7"
+#: S = 2I, so R + BᵀSB = [5 6; 6 11], with determinant 19, and BᵀSA = [0 4; 2 6]: L = [−12 8; 10 6]/19.
+GAIN = "lqr-gain/3/152"
 
 
 @pytest.mark.parametrize(
     "lines",
     [
-        ("112/191, 108/191\n120/191, -48/191",),
-        ("[112/191, 108/191\n120/191, -48/191]",),
-        ("[[112/191, 108/191],", "[120/191, -48/191]]"),
-        ("[", "112/191, 108/191", "120/191, -48/191", "]"),
+        ("-12/19, 8/19\n10/19, 6/19",),
+        ("[-12/19, 8/19\n10/19, 6/19]",),
+        ("[[-12/19, 8/19],", "[10/19, 6/19]]"),
+        ("[", "-12/19, 8/19", "10/19, 6/19", "]"),
     ],
 )
 def test_the_lines_of_a_matrix_are_one_answer(lines: tuple[str, ...]) -> None:
@@ -240,7 +240,7 @@ def test_pasted_numbers_answer_one_part_after_the_other() -> None:
 def test_lines_pasted_into_a_real_terminal_are_one_answer(tmp_path: Path, terminal: str) -> None:
     running = Terminal(tmp_path, 100, GAIN, TERM=terminal)
     running.sees("> ")
-    rows = "112/191, 108/191\n120/191, -48/191"
+    rows = "-12/19, 8/19\n10/19, 6/19"
     # A terminal that can do so tells where a paste begins and ends; another one types it.
     running.presses(
         f"\x1b[200~{rows}\x1b[201~\r" if terminal == "xterm" else rows.replace("\n", "\r") + "\r", "✓ Right"
@@ -251,8 +251,8 @@ def test_lines_pasted_into_a_real_terminal_are_one_answer(tmp_path: Path, termin
 def test_an_open_bracket_goes_on_in_a_real_terminal(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 100, GAIN)
     running.sees("> ")
-    running.types("[[112/191, 108/191],", "... ")
-    running.types("[120/191, -48/191]]", "✓ Right")
+    running.types("[[-12/19, 8/19],", "... ")
+    running.types("[10/19, 6/19]]", "✓ Right")
     running.child.close(force=True)
 
 
@@ -270,10 +270,10 @@ def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
 
 def test_lines_pasted_into_the_console_of_windows_are_one_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     # Windows has no select for a console; msvcrt tells whether keys wait.
-    waiting = ["112/191, 108/191", "120/191, -48/191"]
+    waiting = ["-12/19, 8/19", "10/19, 6/19"]
     console = types.ModuleType("msvcrt")
     monkeypatch.setattr(console, "kbhit", lambda: bool(waiting), raising=False)
     monkeypatch.setitem(sys.modules, "msvcrt", console)
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr("builtins.input", lambda *_: waiting.pop(0))
-    assert Lines()("> ") == "112/191, 108/191\n120/191, -48/191"
+    assert Lines()("> ") == "-12/19, 8/19\n10/19, 6/19"

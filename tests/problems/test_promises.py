@@ -117,7 +117,7 @@ def test_the_name_of_a_backup_diagram_can_be_told_from_its_legend() -> None:
     for level in (1, 2, 3):
         for seed in range(20):
             question = str(rldrill.draw("backup-diagram-name", level, seed).question())
-            assert "A grey square is a terminal state." in question
+            assert "A square is a terminal state" in question
 
 
 def test_the_weights_of_a_softmax_policy_make_a_difference_in_every_state() -> None:

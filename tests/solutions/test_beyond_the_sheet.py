@@ -135,3 +135,15 @@ def test_the_outer_step_of_maml_says_which_derivative_it_takes() -> None:
             working = str(exercise.working())
             assert "∇_θLᵢ(θ)" in working
             assert working.count("dJ/dθ = Σᵢ") == 1, exercise.id
+
+
+def test_the_velocities_of_two_joints_by_hand() -> None:
+    # Angles 45° and 135°: J = √2/2·(−9, −3; 3, −3), det J = 1/2·(27 + 9) = 18; J·(3√2, −√2) = (−27 + 3, 9 + 3).
+    answers = solved("jacobian", lengths=[6, 3], angles=["pi/4", "pi/2"], velocity=[-24, 12])
+    assert same(answers["b"][0], 3 * sympy.sqrt(2))
+    assert same(answers["b"][1], -sympy.sqrt(2))
+
+
+def test_no_joint_velocities_are_found_where_the_arm_is_stretched_out() -> None:
+    with pytest.raises(FileError, match="the configuration is singular"):
+        solved("jacobian", lengths=[1, 2], angles=["pi/6", 0], velocity=[1, 1])

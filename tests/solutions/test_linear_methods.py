@@ -77,9 +77,9 @@ def test_the_stationary_value_solves_its_equation_and_is_stable(seed: int, level
     given_ = solution.problem.data()["given"]
     if "closed_loop" in given_:  # the price that was found, put in its place
         loop, found = given_.pop("closed_loop"), solution.answers
-        filled = loads(dumps(given_).replace('"rho"', f'"{found["a"]}"'))
+        filled = loads(dumps(given_).replace('"rho"', f'"{found["b"]}"'))
         answers = solved("lqr-infinite", **filled)
-        assert [answers[label][0, 0] for label in "ac"] == [found["b"], fmpq(*map(int, loop.split("/")))]
+        assert [answers[label][0, 0] for label in "ac"] == [found["a"], fmpq(*map(int, loop.split("/")))]
         return
     A, B, Q = (matrices.given(getattr(solution.problem.given, name)) for name in "ABQ")
     gamma = fmpq(*Fraction(given_.get("gamma", 1)).as_integer_ratio())
@@ -95,8 +95,8 @@ def test_the_stationary_value_solves_its_equation_and_is_stable(seed: int, level
 def test_the_price_of_a_closed_loop_by_hand() -> None:
     # 2 − 2L = 1/3 gives L = 5/6; 4P/(4P − 1) = 5/6 gives P = −5/4; −q + 4P − 4P·5/6 = −q − 5/6 = −5/4 gives q = 5/12.
     system: dict[str, Any] = {"A": 2, "B": 2, "closed_loop": "1/3"}
-    assert list(solved("lqr-infinite", **system, Q="rho", R=1).values()) == [fmpq(5, 12), fmpq(-5, 4)]
-    assert list(solved("lqr-infinite", **system, Q=5, R="rho").values()) == [12, -15]
+    assert list(solved("lqr-infinite", **system, Q="rho", R=1).values()) == [fmpq(-5, 4), fmpq(5, 12)]
+    assert list(solved("lqr-infinite", **system, Q=5, R="rho").values()) == [-15, 12]
 
 
 def test_the_price_of_an_action_by_hand() -> None:
@@ -272,7 +272,7 @@ def test_a_gain_needs_an_action_that_is_the_best() -> None:
     ("problem", "part", "typed", "name"),
     [
         ("lqr-infinite/1/11", "a", lambda answers: -answers["a"][0, 0], "cost-to-go-given"),
-        ("lqr-backward/2/11", "b", lambda answers: -answers["b"][0, 0], "cost-to-go-given"),
+        ("lqr-backward/2/1", "b", lambda answers: -answers["b"][0, 0], "cost-to-go-given"),
         ("jacobian/1/11", "a", lambda answers: answers["a"].transpose().tolist(), "transposed-jacobian"),
     ],
 )

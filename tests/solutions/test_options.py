@@ -169,11 +169,14 @@ def test_a_cross_term_in_every_convention(
 #: With β = 3/2 for A = 2, B = Q = N = 1, R = 3 and γ = 1/2; the roots are 4 and −1 in costs.
 WORDS = {
     "": ("P(γB²P − R) = (−Q + γA²P)·(γB²P − R) − (γBPA − N)²", "γB²P² + (γB²Q + (γA² − 1) R − 2γABN) P − (QR − N²) = 0",
-         "one of them is negative; a value", "is never positive, so P is that one", "other root, 1, is positive",
+         "The product of the two roots, −4, is negative, so one of them is negative.",
+         "No reward is positive, since QR − N² = 2 is not negative, and neither is a sum of them: P is that root.",
+         "other root, 1, is positive",
          "it reads S = Q + γAᵀSA − (γAᵀSB + N) L."),
     "xuKP": ("P(R + γB²P) = (Q + γA²P)·(R + γB²P) − (γBPA + N)²",
              "γB²P² − (γB²Q + (γA² − 1) R − 2γABN) P − (QR − N²) = 0",
-             "one of them is positive; a cost", "is never negative, so P is that one", "other root, −1, is negative"),
+             "so one of them is positive.", "No cost is negative, since QR − N² = 2 is not negative",
+             "other root, −1, is negative"),
 }  # fmt: skip
 
 

@@ -52,6 +52,15 @@ def test_a_projection_in_the_plane() -> None:
     assert answers["d"] == 2
 
 
+def test_the_policy_that_comes_next_need_not_be_projected() -> None:
+    # c = 8/16, so the point is (2, 0) and w = (0, 3): A is worth 3·1, B 3·6; ‖w‖ = 3.
+    answers = solved(
+        "apprenticeship", expert=[2, 3], first=[0, 0], policies=[[4, 0]], candidates={"A": [9, 1], "B": [0, 6]},
+        projected=False,
+    )  # fmt: skip
+    assert list(answers.values()) == [(2, 0), (0, 3), "B", 3]
+
+
 def test_the_next_policy_of_apprenticeship_learning_by_hand() -> None:
     # From (0, 0) towards (4, 0): the foot of (2, 3) is (2, 0), w = (0, 3), so B with 3·6 beats A with 3·1. From (2, 0)
     # towards (8, 6), along (6, 6): c = 18/72 = 1/4, the point is (7/2, 3/2), and (−3/2, 3/2) is left: 3/√2 = 2.12 > 2.
