@@ -49,7 +49,8 @@ def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
     elif given.state_value is not None:
         worth = _value(given, work, chances)
         work.say(f"This value is ${shown(given.state_value)}$:")
-        work.answer(_rate(work, worth, given.state_value))
+        epsilon = work.answer(_rate(work, worth, given.state_value))
+        work.answer(epsilon_greedy(work, given.state, values, epsilon))
 
 
 def _rate(work: Work, found: Value, wanted: Fraction) -> Value:
@@ -123,8 +124,10 @@ def oracle(given: Given) -> Answers:
         place = list(given.values).index(given.taken.action)
         epsilon = float((at(given.taken.probability) - greedy[place]) / (explored[place] - greedy[place]))
     if given.state_value is not None:
-        return ((Q.max() - at(given.state_value)) / (Q.max() - Q.mean()),)
+        epsilon = (Q.max() - at(given.state_value)) / (Q.max() - Q.mean())
     chances = epsilon * explored + (1 - epsilon) * greedy
+    if given.state_value is not None:
+        return (epsilon, chances)
     return (epsilon if given.taken else chances, chances @ Q)[: 1 + given.valued]
 
 

@@ -2,7 +2,7 @@
 
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.linearisation import (
     Linearised,
     after,
@@ -40,12 +40,20 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
 
 def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
     C = work.answer(C)
-    larger = work.step(affine_step().state, Ad=A, Cc=C)
+    larger = _put_together(work, affine_step().state, Ad=A, Cc=C)
     if given.entries is None:
         work.answer(larger)
-        work.answer(work.step(affine_step().action, Bd=B))
+        work.answer(_put_together(work, affine_step().action, Bd=B))
     else:
         work.answer(matrices.column(line[-1] for line in larger.tolist()))
+
+
+def _put_together(work: Work, formula: Formula, **blocks: AnyMatrix) -> AnyMatrix:
+    """A matrix of blocks: nothing is worked out, only copied."""
+    work.recall(formula)
+    whole: AnyMatrix = work.value(formula, **blocks)
+    work.give(formula, whole)
+    return whole
 
 
 @slip(
