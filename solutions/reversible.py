@@ -10,8 +10,9 @@ from rldrill.problems.runs import ValueRun
 from rldrill.solutions.exact import NoSolution, Value, exact, parameters, to_sympy, value_at
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
+from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.oracle import at
-from rldrill.solutions.work import Result, Work
+from rldrill.solutions.work import Equality, Work
 
 Given = TypeVar("Given", bound=Reversible)
 Run = TypeVar("Run", bound=ValueRun)
@@ -73,8 +74,9 @@ def find_and_finish(
             work.say(f"With ${sign} = {to_sympy(letter)}$ in what was found above:")
         else:
             work.say(f"It does not depend on ${sign}$, and was found above:")
-        names = tuple(V(put_in_name(state)) for state in others)
-        work.lines.append(Result(names, tuple(found.values()), tuple(after[state] for state in others)))
+        for state, value in found.items():
+            with_number = put_in(to_sympy(after[state]), {given.letter: letter})
+            work.lines.append(Equality(V(put_in_name(state)), (after[state], with_number, value)))
         work.answer(found)
 
 
