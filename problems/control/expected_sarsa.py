@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Expected Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.6"
-REVISION = 7
+REVISION = 8
 
 #: The largest number above a line or below it in an update with numbers.
 _LARGEST = 300
@@ -85,7 +85,7 @@ def draw(level: int, rng: Draws) -> Given:
         policy = {state: dict(zip(row, chances, strict=True)) for state, row in found["values"].items()}
         entered = found["trajectory"].states[1:]
         return FixedPolicy(policy={state: row for state, row in policy.items() if state in entered}, **found)
-    visits = rng.choice(("aba", "abc", "abb") if level == 2 else ("ab", "abc", "abc."))
+    visits = "aba" if level == 2 else rng.choice(("ab", "abc", "abc."))  # back to a row that has changed
     epsilon = _drawn_epsilon(rng)
     found = _legible(rng, visits, 3, _greedily(epsilon))
     while level == 2 and not all(sum(row.values()) - max(row.values()) for row in found["values"].values()):
@@ -140,12 +140,18 @@ def _policy(given: Given) -> tuple[Block, ...]:
         case EpsilonGreedy():
             rate = not_known(exploration(given.epsilon)) if given.asks_back else exploration(given.epsilon)
             tied = "; tied best actions share the greedy probability evenly" if _ties(given) else ""
+            values = "the values that are current at each update" if _reads_again(given) else "these values"
             return (
                 Paragraph(
-                    f"The policy is ε-greedy for the values that are current at each update. {rate} Exploration takes "
+                    f"The policy is ε-greedy for {values}. {rate} Exploration takes "
                     f"every action with the same probability{tied}."
                 ),
             )
+
+
+def _reads_again(given: EpsilonGreedy) -> bool:
+    """Whether a state is entered whose action values were updated before."""
+    return any(move.next in {earlier.state for earlier in given.moves[:time]} for time, move in enumerate(given.moves))
 
 
 def _ties(given: EpsilonGreedy) -> bool:

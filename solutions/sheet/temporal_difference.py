@@ -38,7 +38,7 @@ from rldrill.solutions.formula.notation import (
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 
-#: The λ-return, TD errors, eligibility traces, the count of visits, the visits themselves and the weights of their returns.
+#: The λ-return, TD errors, eligibility traces, the count of visits, the visits and the weights of their returns.
 Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
 delta = quantity("delta", subscripted("δ"))
 e = quantity("e", called("e"))
@@ -247,7 +247,7 @@ with evaluate(False):
         V(s) + alpha * delta(t) * e(s),
         title="TD(λ) update by the TD error",
         source="Sutton & Barto 2018, eqs. 12.6 and 12.7, for a table",
-        hint="The TD error is worked out once, with the values before the transition; every state takes its part of it.",
+        hint="The TD error is worked out once, with the values before the transition; every state takes its share.",
         sign="←",
         place=Place.WORKING,
         misread={
