@@ -128,6 +128,7 @@ def draw(level: int, rng: Draws) -> Given:
     setting = draw_setting(rng)
     if level == 3:
         return _searched(rng, setting)
+    cases: tuple[tuple[bool | None, bool], ...]
     if level == 1:
         cases = (rng.choice(_CASES[:-1]),)
     elif rng.chance(Fraction(2, 3)):  # one ratio above the range, one below it
