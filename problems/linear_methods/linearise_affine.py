@@ -28,6 +28,12 @@ class Given(System):
         default=None, description="The entries of A_Δ and B_Δ that are asked for; the larger matrices, if left out."
     )
 
+    moved: bool = Field(
+        default=False,
+        exclude_if=lambda moved: not moved,
+        description="Whether it is asked, too, where the operating point goes in one step.",
+    )
+
     @model_validator(mode="after")
     def _steps(self) -> Self:
         if self.step is None:
@@ -46,9 +52,8 @@ def draw(level: int, rng: Draws) -> Given:
             break
     if level == 1:
         return Given(**system, step=rng.choice(steps))
-    A, B = robot.varying["A"], robot.varying["B"]
-    entries = Entries(A=A, B=() if len(A) > 1 and rng.chance(Fraction(1, 2)) else B)
-    return Given(**system, step=rng.choice(steps), entries=entries)
+    entries = Entries(**robot.varying)
+    return Given(**system, step=rng.choice(steps), entries=entries, moved=rng.chance(Fraction(1, 2)))
 
 
 _STEPS = {
@@ -72,11 +77,14 @@ def question(given: Given) -> Question:
         "$F(s, a) ≈ A_Δ s + B_Δ a + C$. Then the constant $1$ is made part of the state, $s̃_t = (s_t, 1)^⊤$, and $C$ "
         f"part of a column of $Ã$, so that $s̃_{{t+1}} = Ã s̃_t + {moved}$."
     )
-    constant = Part("What is $C$?", Matrix(n, 1))
+    constant = (
+        *([Part("What is $F(s̄, ā)$?", Matrix(n, 1))] if given.moved else []),
+        Part("What is $C$?", Matrix(n, 1)),
+    )
     if given.entries is not None:
         steps = (*given.entries.part("A", "A_Δ"), *given.entries.part("B", "B_Δ"))
-        parts = (*steps, constant, Part(f"What is column ${n + 1}$ of $Ã$?", Matrix(n + 1, 1)))
+        parts = (*steps, *constant, Part(f"What is column ${n + 1}$ of $Ã$?", Matrix(n + 1, 1)))
     else:
         larger = Part("What is the matrix $Ã$?", Matrix(n + 1, n + 1))
-        parts = (constant, larger, Part("What is the matrix $B̃$?", Matrix(n + 1, m)))
+        parts = (*constant, larger, Part("What is the matrix $B̃$?", Matrix(n + 1, m)))
     return Question(tuple(situation(given, then)), parts)

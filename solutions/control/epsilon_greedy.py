@@ -83,7 +83,7 @@ def _value(given: Given, work: Work, chances: dict[str, Value]) -> Value:
 @slip(
     "first-of-the-tied",
     "All actions that are tied for the best are greedy; the probability 1 − ε is shared among them.",
-    when=lambda given: len(given.best) > 1 and given.state_value is None,
+    when=lambda given: len(given.best) > 1,
 )
 def first_of_tied(given: Given, work: Work) -> None:
     """The probabilities as if the other best actions were worth less."""
