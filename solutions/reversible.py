@@ -74,7 +74,7 @@ def find_and_finish(
             work.say(f"With ${sign} = {to_sympy(letter)}$ in what was found above:")
         else:
             work.say(f"It does not depend on ${sign}$, and was found above:")
-        for state, value in found.items():
+        for state, value in found.items() if work.misconception is None else ():  # else nobody reads it
             with_number = put_in(to_sympy(after[state]), {given.letter: letter})
             work.lines.append(Equality(V(put_in_name(state)), (after[state], with_number, value)))
         work.answer(found)

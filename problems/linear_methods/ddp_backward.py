@@ -50,7 +50,10 @@ class Given(System):
         default=True, description="Whether the second derivatives of the dynamics count (DDP) or not (iLQR)."
     )
     reached: dict[Letter, AngleField] | None = Field(
-        default=None, max_length=6, description="A state near the operating point, for which the action is asked for."
+        default=None,
+        max_length=6,
+        description="A state near the operating point, for which the action is asked for.",
+        examples=[{"v": "3/2"}],
     )
 
     @model_validator(mode="after")

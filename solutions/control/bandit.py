@@ -107,15 +107,8 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     """The weight with which both bounds are equal; above it the arm that was pulled less often is ahead."""
     better, rarer = given.between
     known = _counted(given, averages)
-    work.recall(UCB)
-    work.say(f"Let $a$ be {better} and $b$ {rarer}. Then $U(a) = U(b)$ if")
-    bounds = [put_in(UCB.right, {**known, "a": arm, "c": generator("c")}) for arm in given.between]
-    above, below = UCB_BALANCE.right.args
-    ahead, faster = (put_in(side, {**known, "a": better, "b": rarer}) for side in (above, below.base))
-    work.lines.append(Equality(bounds[0], (bounds[1],)))
-    work.lines.append(Equality(Mul(to_sympy(generator("c")), faster, evaluate=False), (ahead,)))
-    if shorter := _shorter(known, better, rarer):
-        work.say(shorter)
+    if work.misconception is None:  # nobody reads the working of a mistake
+        _set_equal(work, known, better, rarer)
     weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
     work.say(
         lambda: (
@@ -124,6 +117,19 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
         )
     )
     work.answer({NEXT: (rarer,)})
+
+
+def _set_equal(work: Work, known: dict[str, Any], better: str, rarer: str) -> None:
+    """The equation of both bounds, and what is left of it when the terms with c stand on one side."""
+    work.recall(UCB)
+    work.say(f"Let $a$ be {better} and $b$ {rarer}. Then $U(a) = U(b)$ if")
+    bounds = [put_in(UCB.right, {**known, "a": arm, "c": generator("c")}) for arm in (better, rarer)]
+    above, below = UCB_BALANCE.right.args
+    ahead, faster = (put_in(side, {**known, "a": better, "b": rarer}) for side in (above, below.base))
+    work.lines.append(Equality(bounds[0], (bounds[1],)))
+    work.lines.append(Equality(Mul(to_sympy(generator("c")), faster, evaluate=False), (ahead,)))
+    if shorter := _shorter(known, better, rarer):
+        work.say(shorter)
 
 
 def _shorter(known: dict[str, Any], better: str, rarer: str) -> str | None:

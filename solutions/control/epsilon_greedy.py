@@ -98,9 +98,10 @@ def first_of_tied(given: Given, work: Work) -> None:
 )
 def value_of_best(given: Given, work: Work) -> None:
     """The probabilities, or ε; then the greatest action value."""
-    first, *_ = right_answers(solve, given, work)
+    first, *others = right_answers(solve, given, work)
     work.answer(first)
-    work.answer(exact(given.values[given.best[0]]))
+    for other in others:
+        work.answer(exact(given.values[given.best[0]]) if given.valued else other)
 
 
 MISCONCEPTIONS = (
