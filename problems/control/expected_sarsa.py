@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Expected Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.6"
-REVISION = 8
+REVISION = 7
 
 #: The largest number above a line or below it in an update with numbers.
 _LARGEST = 300
@@ -85,7 +85,7 @@ def draw(level: int, rng: Draws) -> Given:
         policy = {state: dict(zip(row, chances, strict=True)) for state, row in found["values"].items()}
         entered = found["trajectory"].states[1:]
         return FixedPolicy(policy={state: row for state, row in policy.items() if state in entered}, **found)
-    visits = "aba" if level == 2 else rng.choice(("ab", "abc", "abc."))  # back to a row that has changed
+    visits = rng.choice(("aba", "abc", "abb") if level == 2 else ("ab", "abc", "abc."))
     epsilon = _drawn_epsilon(rng)
     found = _legible(rng, visits, 3, _greedily(epsilon))
     while level == 2 and not all(sum(row.values()) - max(row.values()) for row in found["values"].values()):

@@ -130,14 +130,15 @@ def draw(level: int, rng: Draws) -> Given:
 def _other_value(rng: Draws, found: Mapping[str, Any], wanted: str) -> Other | None:
     """Another value in a state that is entered, by which only the targets of the methods of that letter change."""
     values: Rows = found["values"]
+    right = [_targets(found, worth) for worth in (_taken, _best)]
     entered = dict.fromkeys(found["trajectory"].states[1:])
     for state, action in rng.shuffled([(name, action) for name in entered for action in values.get(name, ())]):
         value = values[state][action] + rng.nonzero(-3, 3) * found["gamma"].denominator
-        rows = {**values, state: {**values[state], action: value}}
-        sarsa, q_learning = (
-            _targets({**found, "values": rows}, worth) != _targets(found, worth) for worth in (_taken, _best)
-        )
-        if value and value not in values[state].values() and method(sarsa=sarsa, q_learning=q_learning) == wanted:
+        if not value or value in values[state].values():
+            continue
+        other = {**found, "values": {**values, state: {**values[state], action: value}}}
+        sarsa, q_learning = (_targets(other, worth) != old for worth, old in zip((_taken, _best), right, strict=True))
+        if method(sarsa=sarsa, q_learning=q_learning) == wanted:
             return Other(state, action, value)
     return None
 

@@ -169,10 +169,18 @@ def test_no_tank_runs_dry_in_a_step_and_no_state_is_forgotten() -> None:
     assert tanks > 20
 
 
-def test_a_policy_that_follows_the_current_values_enters_a_state_again() -> None:
-    for given in drawn("expected-sarsa", (2,)):
-        if hasattr(given, "epsilon"):
-            assert given.trajectory.states[0] == given.trajectory.states[2]
+def test_current_values_are_spoken_of_where_a_row_that_has_changed_is_read_again() -> None:
+    told: Counter[bool] = Counter()
+    for level in (1, 2, 3):
+        for seed in range(25):
+            given: Any = draw("expected-sarsa", level, seed).problem.given
+            states = given.trajectory.states
+            again = any(after in states[:time] for time, after in enumerate(states[1:]))
+            if hasattr(given, "epsilon"):
+                text = " ".join(str(rldrill.draw("expected-sarsa", level, seed).question()).split())
+                assert ("values that are current at each update" in text) == again
+                told[again] += 1
+    assert min(told[True], told[False]) > 3
 
 
 def test_features_of_a_linear_policy_tell_actions_and_weights_apart() -> None:
