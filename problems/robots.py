@@ -1,5 +1,6 @@
 """Robots with their published dynamics, from ``robots.toml``, and dynamics as problems give them."""
 
+import cmath
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -17,7 +18,7 @@ from rldrill.problems.document import Beside, Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.exact import shown as exact_shown
-from rldrill.problems.expressions import Expression, letter, letters, written, written_letter
+from rldrill.problems.expressions import Expression, letter, letters, worked_out, written, written_letter
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import Math, mathematics, row, variable
@@ -187,6 +188,33 @@ def values_of(rng: Draws, robot: Robot) -> dict[str, Any]:
     }
 
 
+_FUNCTIONS = {"sin": cmath.sin, "cos": cmath.cos, "tan": cmath.tan, "sqrt": cmath.sqrt, "exp": cmath.exp}
+
+
+def radians(angle: Angle) -> complex:
+    """An angle in floating point."""
+    return complex(angle.number) * (cmath.pi if angle.of_pi else 1)
+
+
+def letter_values(system: Mapping[str, Any]) -> dict[str, complex]:
+    """The values of all letters at the operating point, in floating point."""
+    angles: dict[str, Angle] = {**system["state"], **system["action"]}
+    return {name: complex(value) for name, value in system["constants"].items()} | {
+        name: radians(angle) for name, angle in angles.items()
+    }
+
+
+def worth(expression: str, values: Mapping[str, complex]) -> complex:
+    """What an expression is worth, in floating point."""
+    return complex(worked_out(expression, values, _FUNCTIONS, complex))
+
+
+def slope(expression: str, name: str, system: Mapping[str, Any]) -> float:
+    """The derivative of an expression by one of its letters at the operating point: a step in imaginary direction."""
+    values, tiny = letter_values(system), 1e-30
+    return worth(expression, values | {name: values[name] + 1j * tiny}).imag / tiny
+
+
 class Entries(Givens):
     """Which entries of A and of B are asked for, each as its row and column, counted from 1."""
 
@@ -251,14 +279,14 @@ def _story(given: System, then: str) -> Iterator[Block]:
     if given.story:
         yield Paragraph(given.story)
     yield from _drawn(given)
-    states, actions = (_column(map(_text, names)) for names in (given.states, tuple(given.action)))
+    states, actions = (column(map(_text, names)) for names in (given.states, tuple(given.action)))
     yield Paragraph(f"State and action are $s = {states}$ and $a = {actions}$. {then}")
 
 
 def _values(given: System) -> str:
     """The values of the constants, and the operating point."""
-    state = _column(angle_text(given.state[name]) for name in given.states)
-    point = f"he operating point is $s̄ = {state}$, $ā = {_column(map(angle_text, given.action.values()))}$."
+    state = column(angle_text(given.state[name]) for name in given.states)
+    point = f"he operating point is $s̄ = {state}$, $ā = {column(map(angle_text, given.action.values()))}$."
     if not given.constants:
         return f"T{point}"
     what = "constant is" if len(given.constants) == 1 else "constants are"
@@ -288,7 +316,8 @@ def _drawn(given: System) -> Iterator[Picture]:
         yield Pendulum(degrees(given.state["θ"]), cart=given.picture == "cart-pole")
 
 
-def _column(entries: Iterable[str]) -> str:
+def column(entries: Iterable[str]) -> str:
+    """A column of numbers or letters as mathematics, in a line; a single one stands alone."""
     each = tuple(entries)
     return f"({', '.join(each)})^⊤" if len(each) > 1 else each[0]
 

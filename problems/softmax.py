@@ -1,6 +1,6 @@
 """Softmax policies that are linear in features, and runs of agents that follow them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import prod
 from typing import Any, Self
 
@@ -118,7 +118,8 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
     """
     setting = draw_setting(rng)
     actions = setting.actions[: 3 if level == 3 else 2]
-    states, taken = draw_way(rng, setting, {1: "aa.", 2: "aba.", 3: "abb."}[level], actions)
+    visits = {1: ("aa.",), 2: ("aba.",), 3: ("abb.", "aab.")}[level]
+    states, taken = draw_way(rng, setting, rng.choice(visits), actions)
     policy = draw_even_policy if level == 1 else draw_log_policy
     while True:
         theta, features = policy(rng, tuple(dict.fromkeys(states[:-1])), actions)
@@ -160,6 +161,19 @@ def returns(run: Trajectory, gamma: Fraction) -> tuple[Fraction, ...]:
     for reward in reversed(run.rewards):
         later.append(reward + gamma * later[-1])
     return tuple(later[:0:-1])
+
+
+def gradient(episode: Mapping[str, Any], weights: Sequence[Fraction]) -> list[Fraction]:
+    """The sum of the scores of a run, each with its weight; the policy's weights are 0 or logarithms."""
+    run, features = episode["trajectory"], episode["features"]
+    total = [Fraction(0)] * len(episode["theta"])
+    likely = dict(zip(features, _exponentials(episode["theta"], features), strict=True))
+    for state, action, weight in zip(run.states, run.actions, weights, strict=False):
+        rows, chances = features[state], likely[state]
+        for place, own in enumerate(rows[action]):
+            mean = Fraction(sum(chance * row[place] for chance, row in zip(chances, rows.values(), strict=True)))
+            total[place] += weight * (own - mean / sum(chances))
+    return total
 
 
 def every_step_counts(run: Trajectory, weights: Sequence[Fraction]) -> bool:

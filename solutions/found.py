@@ -1,11 +1,12 @@
 """What was worked out with a letter in it, once the letter is found; equations that are written when somebody looks."""
 
 from collections.abc import Callable
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 from sympy import Expr
 
+from rldrill.solutions.exact import value_at
 from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.putting_in import indexed
@@ -47,12 +48,10 @@ def put_in_found(work: Work, formula: Formula, letter: str, value: Value, found:
         found: the letter's value.
         **indices: those of the quantity.
     """
-    there = with_found(value, found)
-    work.lines.append(Later(partial(_sides, formula, letter, value, found, indices)))
-    return there
+    work.lines.append(found_line(indexed(formula.left, indices), letter, value, found))
+    return with_found(value, found)
 
 
-def _sides(
-    formula: Formula, letter: str, value: Value, found: Value, indices: dict[str, Any]
-) -> tuple[Expr, Expr, Value]:
-    return indexed(formula.left, indices), with_number([[value]], letter, found), with_found(value, found)
+def found_line(left: Expr, letter: str, value: Value, found: Value) -> Later:
+    """What was worked out in terms of a letter, with the number that was found in its place, and what that is."""
+    return Later(lambda: (left, value, with_number([[value]], letter, found), value_at(value, found)))

@@ -232,10 +232,18 @@ def _needed(work: Work, given: System, by: str, known: Mapping[str, Any], rule: 
             for right in (*components, *(rights[later] for later in needed))
         ):
             needed.append(part)
-    if idle := [f"$∂{part}/∂{by}$" for part in rights if part not in needed]:
+    if idle := [part for part in rights if part not in needed]:
         rest = [f"${part} = 0$" for part in given.where if known[dynamics.code(part)] == 0]
+        rest = rest or [
+            f"$f_{{{index}}} = 0$"
+            for index, text in enumerate(given.dynamics.values(), 1)
+            if _within(text, idle) and is_zero(value_of(_right(text), known))
+        ]
         since = f", since {joined(rest)}" if rest else ""
-        work.say(f"What multiplies {joined(idle)} is $0$ at the operating point{since}.")
+        work.say(
+            f"What multiplies {joined([f'$∂{part}/∂{by}$' for part in idle])} is $0$ at the operating point{since}: "
+            f"the derivatives there are those with {joined([f'${part}$' for part in idle])} held fixed."
+        )
     return tuple(part for part in rights if part in needed)
 
 

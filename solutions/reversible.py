@@ -8,10 +8,11 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
 from rldrill.solutions.exact import NoSolution, Value, exact, parameters, to_sympy, value_at
+from rldrill.solutions.found import found_line
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.oracle import at
-from rldrill.solutions.work import Result, Work
+from rldrill.solutions.work import Work
 
 Given = TypeVar("Given", bound=Reversible)
 Run = TypeVar("Run", bound=ValueRun)
@@ -73,10 +74,7 @@ def find_and_finish(
             work.say(f"With ${sign} = {to_sympy(letter)}$ in what was found above:")
         else:
             work.say(f"It does not depend on ${sign}$, and was found above:")
-        names = tuple(V(put_in_name(state)) for state in others)
-        work.lines.append(
-            Result(names, tuple(found.values()), tuple(after[state] for state in others), (given.letter, letter))
-        )
+        work.lines += [found_line(V(put_in_name(state)), given.letter, after[state], letter) for state in others]
         work.answer(found)
 
 

@@ -13,12 +13,11 @@ from rldrill.problems.mathematics import Math, listed, mathematics, name, punctu
 from rldrill.problems.notations import LECTURE, Writing, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, Value, parameters, sign, simplest, tidy
+from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
 from rldrill.solutions.formula.collecting import collected_next
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
-from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.lines import lines_between
 from rldrill.solutions.formula.notation import Quantity
@@ -158,29 +157,17 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Result:
-    """Values that a procedure gives together: the solution of a system, a table at its end.
-
-    ``before`` holds what was found of them before, where a letter was left open in it, and ``found`` the letter and
-    the number that is put in for it.
-    """
+    """Values that a procedure gives together: the solution of a system, a table at its end."""
 
     lefts: tuple[Expr, ...]
     values: tuple[Any, ...]
-    before: tuple[Any, ...] = ()
-    found: tuple[str, Value] | None = None
 
     def equations(self) -> tuple[Equation, ...]:
         """One line for every value."""
         return tuple(
-            Equation(typeset(left), rights, ("=",) * len(rights))
-            for left, before, value in zip(self.lefts, self.before or self.values, self.values, strict=True)
-            for rights in [tuple(dict.fromkeys(map(_side, (before, *self._put_in(before), value))))]
+            Equation(typeset(left), (shown_value(value),), ("=",))
+            for left, value in zip(self.lefts, self.values, strict=True)
         )
-
-    def _put_in(self, before: Any) -> Iterator[Expr]:
-        """What was found before, with the number in the place of the letter."""
-        if self.found and self.found[0] in parameters(before):
-            yield with_number([[before]], *self.found)
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
-REVISION = 7
+REVISION = 8
 DISTRACTORS = (
     "values.*",  # both tables have the values of other pairs, too
     "second.*",
@@ -56,19 +56,23 @@ class Given(BackRun):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One transition; then two, one for each table; then one back from its outcome, or three over three states."""
+    """One transition; then two, one for each table; then one back from its outcome, or three and more.
+
+    One table has its turns before the other: then each table's updates belong to the part that asks for it.
+    """
     if level == 3 and rng.chance(Fraction(2, 3)):
         return _back(rng)
     visits = {1: ("ab",), 2: ("aba", "abc", "abb", "ab."), 3: ("abac.", "abcb", "abab")}[level]
     alpha, gamma, unit = draw_rates(rng)
     trajectory, values = draw_action_run(rng, rng.choice(visits), 2 if level == 1 else 3, last=False, same=level == 3)
     rows = draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), unit)
-    first = rng.choice((1, 2))
+    first, steps = rng.choice((1, 2)), len(trajectory.rewards)
+    turns = 1 + rng.below(max(1, steps - 1))
     given = Given(
         trajectory=trajectory,
         values=rows,
         second={state: _other_row(rng, row, unit) for state, row in rows.items()},
-        updates=tuple(first if time % 2 == 0 else 3 - first for time in range(len(trajectory.rewards))),
+        updates=(first,) * turns + (3 - first,) * (steps - turns),
         alpha=alpha,
         gamma=gamma,
     )

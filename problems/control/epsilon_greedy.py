@@ -13,12 +13,12 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import exploration, in_open, not_known
-from rldrill.problems.runs import action_values_table, draw_row
+from rldrill.problems.runs import action_values_table
 from rldrill.problems.settings import draw_setting
 
 TITLE = "ε-greedy policy"
 SOURCE = "Sutton & Barto 2018, sections 2.2 and 5.4"
-REVISION = 4
+REVISION = 5
 
 _MOVES = ("up", "right", "down", "left")
 
@@ -85,33 +85,32 @@ _RATES = {
 }
 
 
+#: What actions are worth: 0 would leave one of them out of the average.
+_WORTH = tuple(Fraction(worth) for worth in range(-3, 10) if worth)
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Probabilities; then the state's value or ε from a probability; then ε from the value, or left open with ties."""
-    count = 3 if level == 1 else rng.choice((2, 3, 4))
+    """Probabilities; then the state's value, or ε from a probability; then ε from the state's value."""
+    count = 3 if level == 1 else rng.choice((2, 3, 4)[level - 2 :])
     if count < 4:
         setting = draw_setting(rng)
         state, actions = rng.choice(setting.states), setting.actions[:count]
     else:
         state, actions = f"r{1 + rng.below(4)}c{1 + rng.below(4)}", _MOVES
     epsilon = rng.fraction(*_RATES[count])
-    values = draw_row(rng, actions)
-    greatest, mean = max(values.values()), sum(values.values()) / count
-    backwards = level > 1 and rng.chance(Fraction(1, 2))
+    values = dict(zip(actions, rng.shuffled(_WORTH)[:count], strict=True))
     if level > 1 and count > 2 and rng.chance(Fraction(1, 2) if level == 2 else Fraction(2, 3)):
-        tied = rng.sample(actions, rng.choice(range(2, count)))
-        values = {a: greatest if a in tied else greatest - rng.whole(1, 5) for a in actions}
+        tied, greatest = rng.sample(actions, rng.choice(range(2, count))), int(max(values.values()))
+        values = {a: Fraction(greatest) if a in tied else rng.nonzero(greatest - 5, greatest - 1) for a in actions}
+    given = Given(state=state, values=values, epsilon=epsilon, valued=level == 2)
+    if level == 3:
         mean = sum(values.values()) / count
-    given = Given(
-        state=state,
-        values=values,
-        epsilon=Parameter("epsilon") if level == 3 or backwards else epsilon,
-        valued=level > 1 and not (level == 3 and backwards),
-    )
-    if backwards and level == 2:
+        worth = (1 - epsilon) * max(values.values()) + epsilon * mean
+        return given.model_copy(update={"epsilon": Parameter("epsilon"), "state_value": worth})
+    if level == 2 and rng.chance(Fraction(1, 2)):
         chance = (1 - epsilon) / len(given.best) + epsilon / count
-        return given.model_copy(update={"taken": Taken(rng.choice(given.best), chance)})
-    if backwards:
-        return given.model_copy(update={"state_value": (1 - epsilon) * greatest + epsilon * mean})
+        taken = Taken(rng.choice(given.best), chance)
+        return given.model_copy(update={"epsilon": Parameter("epsilon"), "taken": taken})
     return given
 
 
@@ -137,16 +136,18 @@ def question(given: Given) -> Question:
     where = f'"{given.state}"'
     taken_for = f"Take these action values for $Q^π${', whatever $ε$ is' if in_open(given) else ''}."
     valued = f"{taken_for} What is"
+    every = f"With what probability $π(a|{where})$ is each action taken"
+    chances = Values(f"π(·|{where})", tuple(given.values))
     if given.state_value is not None:
         worth = f"Take these action values for $Q^π$: then $V^π({where}) = {shown(given.state_value)}$."
-        return Question(blocks, (Part(f"{worth} What is the exploration rate $ε$?", Number()),))
+        sought = Part(f"{worth} What is the exploration rate $ε$?", Number())
+        return Question(blocks, (sought, Part(f"{every} with this $ε$?", chances)))
     if given.taken:
         action, chance = given.taken
         ask = f'It takes {action} with probability $π("{action}"|{where}) = {shown(chance)}$. What is $ε$?'
         asked = [Part(ask, Number())]
     else:
-        every = f"With what probability $π(a|{where})$ is each action taken{in_open(given)}?"
-        asked = [Part(every, Values(f"π(·|{where})", tuple(given.values)))]
+        asked = [Part(f"{every}{in_open(given)}?", chances)]
     if given.valued:
         with_it = " with this $ε$" if given.taken else ""
         asked.append(Part(f"{valued} $V^π({where})${with_it}{in_open(given)}?", Number()))

@@ -140,12 +140,18 @@ def _policy(given: Given) -> tuple[Block, ...]:
         case EpsilonGreedy():
             rate = not_known(exploration(given.epsilon)) if given.asks_back else exploration(given.epsilon)
             tied = "; tied best actions share the greedy probability evenly" if _ties(given) else ""
+            values = "the values that are current at each update" if _reads_again(given) else "these values"
             return (
                 Paragraph(
-                    f"The policy is ε-greedy for the values that are current at each update. {rate} Exploration takes "
+                    f"The policy is ε-greedy for {values}. {rate} Exploration takes "
                     f"every action with the same probability{tied}."
                 ),
             )
+
+
+def _reads_again(given: EpsilonGreedy) -> bool:
+    """Whether a state is entered whose action values were updated before."""
+    return any(move.next in {earlier.state for earlier in given.moves[:time]} for time, move in enumerate(given.moves))
 
 
 def _ties(given: EpsilonGreedy) -> bool:

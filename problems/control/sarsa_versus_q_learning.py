@@ -2,26 +2,28 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, Literal, Self
+from typing import Any, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.asking_back import Rates, Worth, draw_forward, draw_rates, updates_of
+from rldrill.problems.asking_back import Rates, Rows, Worth, draw_forward, draw_rates, updates_of
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
+from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import in_open, not_known
 from rldrill.problems.runs import ActionRun, Trajectory, action_values_table, run_situation
 
 TITLE = "Sarsa versus Q-learning"
 SOURCE = "Sutton & Barto 2018, sections 6.4 and 6.5"
-REVISION = 7
+REVISION = 8
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "alpha",  # it is printed only where a value that it has moved is used
+    "instead.2",  # "neither" is an answer, too
 )
 
 #: What the last part may be answered with.
@@ -44,10 +46,27 @@ _WORDS: tuple[tuple[Word, ...], ...] = (
 )  # fmt: skip
 
 
+class Other(NamedTuple):
+    """What a pair might have been worth before the run instead."""
+
+    state: Name
+    action: Name
+    value: Exact
+
+
 class Given(ActionRun):
-    """A run with all its actions, the action values before it, α and γ; and which word the last part asks about."""
+    """A run with all its actions, the action values before it, α and γ; and what the last part asks about.
+
+    That is a word, or whose targets would change with ``instead``, another value of a pair before the run.
+    """
 
     word: Word = Field(default="on-policy", description="The word that the last part asks about.")
+    instead: Other | None = Field(
+        default=None,
+        exclude_if=lambda instead: instead is None,
+        description="Another action value before the run: instead of a word it is asked whose targets it would change.",
+        examples=[["B", "left", 3]],
+    )
     known: Exact | None = Field(
         default=None,
         exclude_if=lambda known: known is None,
@@ -57,6 +76,8 @@ class Given(ActionRun):
     @model_validator(mode="after")
     def _bootstraps(self) -> Self:
         self.demand_last_action("Sarsa")
+        if self.instead is not None and self.instead.action not in self.values.get(self.instead.state, {}):
+            raise ValueError(f"instead: {self.instead.action!r} has no value in {self.instead.state!r}")
         if self.known is None:
             return self
         if not isinstance(self.alpha, Parameter):
@@ -64,6 +85,12 @@ class Given(ActionRun):
         if first_that_reads_again(self.trajectory) is None:
             raise ValueError("known: no target of Sarsa reads an updated value, so alpha does not follow; leave it out")
         return self
+
+    @property
+    def changed(self) -> Rows:
+        """The action values before the run with the one that might have been."""
+        state, action, value = self.instead or Other("", "", Fraction(0))
+        return {name: {**row, **({action: value} if name == state else {})} for name, row in self.values.items()}
 
     def parameters(self) -> tuple[str, ...]:
         """The letters that answers are expressions in: not the step size that is asked for."""
@@ -85,12 +112,40 @@ def draw(level: int, rng: Draws) -> Given:
     given = Given(**found, word=rng.choice(rng.choice(_WORDS)))
     if len({tuple(row.values()) for row in given.values.values()}) < len(given.values):
         return draw(level, rng)
-    if level > 1 and not all(_is_read_again(found, worth) for worth in (_taken, _best)):
-        return draw(level, rng)
-    if level < 3:
+    if level == 1:
         return given
-    known = _targets(found, _taken)[first_that_reads_again(given.trajectory) or 0]
-    return given.model_copy(update={"known": known, "alpha": Parameter("alpha")}) if known else draw(level, rng)
+    sarsa, q_learning = (_targets(found, worth) for worth in (_taken, _best))
+    again = first_that_reads_again(given.trajectory) or 0
+    if sarsa[again] == q_learning[again] or not all(_is_read_again(found, worth) for worth in (_taken, _best)):
+        return draw(level, rng)
+    if level == 2:
+        return given
+    instead = _other_value(rng, found, rng.choice(tuple(METHODS)))
+    if instead is None or sarsa[again] == 0:
+        return draw(level, rng)
+    sought = {"known": sarsa[again], "alpha": Parameter("alpha"), "instead": instead}
+    return Given(**found).model_copy(update=sought)
+
+
+def _other_value(rng: Draws, found: Mapping[str, Any], wanted: str) -> Other | None:
+    """Another value in a state that is entered, by which only the targets of the methods of that letter change."""
+    values: Rows = found["values"]
+    right = [_targets(found, worth) for worth in (_taken, _best)]
+    entered = dict.fromkeys(found["trajectory"].states[1:])
+    for state, action in rng.shuffled([(name, action) for name in entered for action in values.get(name, ())]):
+        value = values[state][action] + rng.nonzero(-3, 3) * found["gamma"].denominator
+        if not value or value in values[state].values():
+            continue
+        other = {**found, "values": {**values, state: {**values[state], action: value}}}
+        sarsa, q_learning = (_targets(other, worth) != old for worth, old in zip((_taken, _best), right, strict=True))
+        if method(sarsa=sarsa, q_learning=q_learning) == wanted:
+            return Other(state, action, value)
+    return None
+
+
+def method(*, sarsa: bool, q_learning: bool) -> str:
+    """The letter of the option that names these methods."""
+    return "DABC"[sarsa + 2 * q_learning]
 
 
 def _sought_rates(rng: Draws) -> Rates:
@@ -136,20 +191,32 @@ def question(given: Given) -> Question:
         situation = tuple(
             Paragraph(not_known(block.text)) if isinstance(block, Paragraph) else block for block in situation
         )
-    blocks = (
-        *situation,
-        Paragraph(
-            "Sarsa and Q-learning both learn from this run, each with its own copy of this table, which it "
-            "updates after every transition. The target $y_t$ is what the update moves $Q(s_t, a_t)$ towards."
-        ),
+    learn = (
+        "Sarsa and Q-learning both learn from this transition."
+        if steps == 1
+        else "Sarsa and Q-learning both learn from this run, each with its own copy of this table, which it updates "
+        "after every transition."
     )
+    target = f"The target $y_{0 if steps == 1 else 't'}$ is what the update moves"
+    updated = "$Q(s_0, a_0)$" if steps == 1 else "$Q(s_t, a_t)$"
+    blocks = (*situation, Paragraph(f"{learn} {target} {updated} towards."))
     sarsa, q_learning = (_targets_asked(given, steps, method) for method in ("Sarsa", "Q-learning"))
     if given.known is not None:
         told = f"Sarsa's target is $y_{{{first_that_reads_again(run)}}} = {shown(given.known)}$."
         sarsa = Part(f"{told} What is the step size $α$?", Number())
         q_learning = replace(q_learning, ask=f"With this step size, {q_learning.ask[0].lower()}{q_learning.ask[1:]}")
-    word = Part(f"Which of the two is {given.word}: which one {_MEANING[given.word]}?", Choice(METHODS))
-    return Question(blocks, (sarsa, q_learning, word))
+    return Question(blocks, (sarsa, q_learning, Part(_last_asked(given), Choice(METHODS))))
+
+
+def _last_asked(given: Given) -> str:
+    if given.instead is None:
+        return f"Which of the two is {given.word}: which one {_MEANING[given.word]}?"
+    state, action, value = given.instead
+    rate = " With the same step size, which" if given.known is not None else " Which"
+    return (
+        f'Suppose that $Q("{state}", "{action}")$ had been ${shown(value)}$ before the first update.{rate} of the two '
+        "would have had another target, at one time at least?"
+    )
 
 
 def _targets_asked(given: Given, steps: int, method: str) -> Part:

@@ -1,26 +1,37 @@
 """One backward step of differential dynamic programming: the quadratic Q, and the change of the action."""
 
-import cmath
 from collections.abc import Mapping
 from typing import Any, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.angles import Angle, read_angle
+from rldrill.problems.angles import Angle, AngleField, read_angle, text
 from rldrill.problems.document import Beside, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
-from rldrill.problems.expressions import Expression, letters, worked_out
+from rldrill.problems.expressions import Expression, letters
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, tabular
 from rldrill.problems.parts import Matrix, Part
-from rldrill.problems.robots import Robot, System, drawn_robot, plan, values_of
+from rldrill.problems.robots import (
+    Letter,
+    Robot,
+    System,
+    column,
+    drawn_robot,
+    letter_values,
+    plan,
+    radians,
+    slope,
+    values_of,
+    worth,
+)
 
 TITLE = "Backward step of DDP"
 SOURCE = "Tassa, Erez & Todorov 2012"
-REVISION = 4
+REVISION = 5
 
 
 class Given(System):
@@ -38,6 +49,12 @@ class Given(System):
     second_order: bool = Field(
         default=True, description="Whether the second derivatives of the dynamics count (DDP) or not (iLQR)."
     )
+    reached: dict[Letter, AngleField] | None = Field(
+        default=None,
+        max_length=6,
+        description="A state near the operating point, for which the action is asked for.",
+        examples=[{"v": "3/2"}],
+    )
 
     @model_validator(mode="after")
     def _next(self) -> Self:
@@ -51,11 +68,13 @@ class Given(System):
             raise ValueError(f"gradient has {len(self.gradient)} entries, but the state {n}")
         check_shape("hessian", self.hessian, n, n, f"with {n} states ")
         check_symmetric("hessian", self.hessian)
+        if self.reached is not None and set(self.reached) != set(self.state):
+            raise ValueError("reached must have the letters of the state")
         return self
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """iLQR with numbers; then DDP or iLQR of what is more curved; then with two states."""
+    """A step of iLQR; then of DDP, and what it does in a state beside the operating point; then two states."""
     robot = drawn_robot(rng, "ddp", level)
     while True:
         system = values_of(rng, robot)
@@ -70,20 +89,20 @@ def draw(level: int, rng: Draws) -> Given:
         steep = rng.whole(1, steepest)
         rises = missing[name] > 0 if name in missing else rng.chance(Fraction(1, 2))
         gradient.append(steep if rises else -steep)
-    second_order = level > 1 and rng.chance(Fraction(3, 4))
+    second_order = level == 2 or (level == 3 and rng.chance(Fraction(3, 4)))
+    if level == 2 and rng.chance(Fraction(1, 2)):
+        aside = rng.fraction("1/2", "-1/2", "1")
+        system["reached"] = {name: Angle(value.number + aside) for name, value in system["state"].items()}
     return Given(**system, gradient=tuple(gradient), hessian=hessian, second_order=second_order)
-
-
-_FUNCTIONS = {"sin": cmath.sin, "cos": cmath.cos, "tan": cmath.tan, "sqrt": cmath.sqrt, "exp": cmath.exp}
 
 
 def _missing(robot: Robot, system: Mapping[str, Any]) -> dict[str, float]:
     """By how much the next state falls short of what is wanted of it; its value rises towards that."""
-    letters_ = _values(system)
+    letters_ = letter_values(system)
     short = {}
     for name, wanted in robot.wanted.items():
-        aim = letters_[wanted] if wanted in letters_ else _radians(read_angle(wanted))
-        short[name] = round((aim - _worth(robot.dynamics[name], letters_)).real, 9)
+        aim = letters_[wanted] if wanted in letters_ else radians(read_angle(wanted))
+        short[name] = round((aim - worth(robot.dynamics[name], letters_)).real, 9)
     return short
 
 
@@ -92,24 +111,7 @@ def _settles(robot: Robot, system: Mapping[str, Any]) -> bool:
     if len(robot.dynamics) > 1:
         return False
     ((name, rate),) = robot.dynamics.items()
-    letters_, tiny = _values(system), 1e-30
-    return abs(_worth(rate, letters_ | {name: letters_[name] + 1j * tiny}).imag / tiny) < 1e-9
-
-
-def _values(system: Mapping[str, Any]) -> dict[str, complex]:
-    """The values of all letters at the operating point."""
-    angles: dict[str, Angle] = {**system["state"], **system["action"]}
-    return {name: complex(value) for name, value in system["constants"].items()} | {
-        name: _radians(angle) for name, angle in angles.items()
-    }
-
-
-def _radians(angle: Angle) -> complex:
-    return complex(angle.number) * (cmath.pi if angle.of_pi else 1)
-
-
-def _worth(text: str, values: Mapping[str, complex]) -> complex:
-    return complex(worked_out(text, values, _FUNCTIONS, complex))
+    return abs(slope(rate, name, system)) < 1e-9
 
 
 def question(given: Given) -> Question:
@@ -141,8 +143,18 @@ def question(given: Given) -> Question:
                 "The best action is then $a = ā + k + K (s − s̄)$."
             ),
         ),
-        tuple(Part(f"What is the {what} ${head}$?", Matrix(rows, columns)) for head, what, rows, columns in wanted),
+        (
+            *(Part(f"What is the {what} ${head}$?", Matrix(rows, columns)) for head, what, rows, columns in wanted),
+            *_action_asked(given),
+        ),
     )
+
+
+def _action_asked(given: Given) -> tuple[Part, ...]:
+    if given.reached is None:
+        return ()
+    state = column(text(given.reached[name]) for name in given.states)
+    return (Part(f"Which action $a$ is the best one in the state $s = {state}$?", Matrix(len(given.action), 1)),)
 
 
 def _first(count: int) -> str:

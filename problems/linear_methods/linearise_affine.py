@@ -1,6 +1,7 @@
 """The constant term C of a linearisation, and the matrices that pull it into the state."""
 
-from typing import Self
+from collections.abc import Mapping
+from typing import Any, Self
 
 from pydantic import Field, model_validator
 
@@ -8,11 +9,11 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Matrix, Part
-from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, values_of
+from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, slope, values_of
 
 TITLE = "Linearisation with a constant term"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 6
+REVISION = 7
 #: An operating point has all coordinates; what is linear in them cancels in C. Entries say what is asked.
 DISTRACTORS = ("state.*", "action.*", "entries.*")
 
@@ -27,6 +28,12 @@ class Given(System):
         default=None, description="The entries of A_Δ and B_Δ that are asked for; the larger matrices, if left out."
     )
 
+    moved: bool = Field(
+        default=False,
+        exclude_if=lambda moved: not moved,
+        description="Whether it is asked, too, where the operating point goes in one step.",
+    )
+
     @model_validator(mode="after")
     def _steps(self) -> Self:
         if self.step is None:
@@ -38,14 +45,27 @@ class Given(System):
 
 def draw(level: int, rng: Draws) -> Given:
     """One tank; then two states; then a robot on wheels."""
-    step = rng.fraction("1/2", "1") if level < 3 else rng.fraction("1/10", "1/5", "1/2")
     robot = drawn_robot(rng, "affine", level)
-    system = values_of(rng, robot)
+    while True:
+        system = values_of(rng, robot)
+        if steps := [step for step in _STEPS[level] if _keeps_half(system, step)]:
+            break
     if level == 1:
-        return Given(**system, step=step)
-    A, B = robot.varying["A"], robot.varying["B"]
-    few = len(A) > 1 and rng.chance(Fraction(1, 2))  # of B the first, where there are several, or none
-    return Given(**system, step=step, entries=Entries(A=A, B=B[: len(B) > 1] if few else B))
+        return Given(**system, step=rng.choice(steps))
+    entries = Entries(**robot.varying)
+    return Given(**system, step=rng.choice(steps), entries=entries, moved=rng.chance(Fraction(1, 2)))
+
+
+_STEPS = {
+    1: (Fraction(1, 4), Fraction(1, 2), Fraction(1)),
+    2: (Fraction(1, 4), Fraction(1, 2), Fraction(1)),
+    3: (Fraction(1, 10), Fraction(1, 5), Fraction(1, 2)),
+}
+
+
+def _keeps_half(system: Mapping[str, Any], step: Fraction) -> bool:
+    """Whether more than half of every state is left after a step: no tank runs dry, and no state is forgotten."""
+    return all(1 + float(step) * slope(rate, name, system) > 1 / 2 for name, rate in system["dynamics"].items())
 
 
 def question(given: Given) -> Question:
@@ -57,11 +77,14 @@ def question(given: Given) -> Question:
         "$F(s, a) ≈ A_Δ s + B_Δ a + C$. Then the constant $1$ is made part of the state, $s̃_t = (s_t, 1)^⊤$, and $C$ "
         f"part of a column of $Ã$, so that $s̃_{{t+1}} = Ã s̃_t + {moved}$."
     )
-    constant = Part("What is $C$?", Matrix(n, 1))
+    constant = (
+        *([Part("What is $F(s̄, ā)$?", Matrix(n, 1))] if given.moved else []),
+        Part("What is $C$?", Matrix(n, 1)),
+    )
     if given.entries is not None:
         steps = (*given.entries.part("A", "A_Δ"), *given.entries.part("B", "B_Δ"))
-        parts = (*steps, constant, Part(f"What is column ${n + 1}$ of $Ã$?", Matrix(n + 1, 1)))
+        parts = (*steps, *constant, Part(f"What is column ${n + 1}$ of $Ã$?", Matrix(n + 1, 1)))
     else:
         larger = Part("What is the matrix $Ã$?", Matrix(n + 1, n + 1))
-        parts = (constant, larger, Part("What is the matrix $B̃$?", Matrix(n + 1, m)))
+        parts = (*constant, larger, Part("What is the matrix $B̃$?", Matrix(n + 1, m)))
     return Question(tuple(situation(given, then)), parts)

@@ -1,5 +1,6 @@
 """The greedy policy of action values that are linear in features; or the weight at which it changes."""
 
+from itertools import combinations
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -15,7 +16,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear policy"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Givens):
@@ -68,10 +69,18 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _telling(given: Given) -> bool:
-    """Whether every weight counts, and not the same action is greedy everywhere."""
+    """Whether every weight counts by itself, no action's features are a multiple of another's, and no action is greedy
+    everywhere.
+    """
     best = [max(row, key=lambda action: dot(given.numbers, row[action])) for row in given.features.values()]
-    rows = [features for row in given.features.values() for features in row.values()]
-    return all(map(any, zip(*rows, strict=True))) and (len(best) == 1 or len(set(best)) > 1)
+    columns = [*zip(*(features for row in given.features.values() for features in row.values()), strict=True)]
+    apart = all(
+        any(a * d != b * c for (a, c), (b, d) in combinations(zip(one, other, strict=True), 2))
+        for row in given.features.values()
+        for one, other in combinations(row.values(), 2)
+    )
+    counts = all(map(any, columns)) and len(set(columns)) == len(columns)
+    return apart and counts and (len(best) == 1 or len(set(best)) > 1)
 
 
 def _changing(rng: Draws, setting: Setting) -> Given:

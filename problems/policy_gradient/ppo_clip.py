@@ -1,7 +1,7 @@
 """PPO: the probability ratios, the two terms and the clipped objective of one or more samples."""
 
 from collections.abc import Iterator, Mapping
-from itertools import product
+from itertools import combinations, product
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -18,7 +18,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "PPO: clipped objective"
 SOURCE = "Schulman et al. 2017, section 3"
-REVISION = 4
+REVISION = 5
 
 
 class Sample(Givens):
@@ -115,24 +115,30 @@ _BY_PREFERENCE = {
 }
 
 
-def draw(level: int, rng: Draws) -> Given:
-    """One sample; then two; then the clipping range is found, from the objective or as that below which it cuts.
+#: Whether clipping cuts off the gradient of a sample, nothing if its ratio lies inside the range; whether it grew.
+_CASES = ((True, True), (True, False), (False, True), (False, False), (None, True))
+#: Three different cases; in one at least a ratio lies outside the range, and yet its gradient is not cut off.
+_THREE = tuple(cases for cases in combinations(_CASES, 3) if any(cut is False for cut, _ in cases))
 
-    In half of the samples clipping cuts off the gradient.
+
+def draw(level: int, rng: Draws) -> Given:
+    """One sample; then two or three, each another case; then the clipping range is found, from the objective or as that
+    below which it cuts.
     """
     setting = draw_setting(rng)
     if level == 3:
         return _searched(rng, setting)
-    count = 1 if level == 1 else rng.choice((2, 2, 3))
-    cuts = [rng.choice((True, True, False, False if level == 1 else None)) for _ in range(count)]
-    if cuts.count(None) == count:
-        return draw(level, rng)
+    cases: tuple[tuple[bool | None, bool], ...]
+    if level == 1:
+        cases = (rng.choice(_CASES[:-1]),)
+    elif rng.chance(Fraction(2, 3)):  # one ratio above the range, one below it
+        cases = rng.shuffled([(rng.choice((True, False)), more) for more in (True, False)])
+    else:
+        cases = rng.shuffled(rng.choice(_THREE))
+    count = len(cases)
     samples = []
-    ways = [*rng.shuffled((True, False)), rng.chance(Fraction(1, 2))]  # of two ratios one lies above the range
-    for state, cut, more in zip(rng.shuffled(setting.states), cuts, ways, strict=False):
-        sign = rng.choice((1, -1))
-        if cut is not None:
-            sign = 1 if more == cut else -1
+    for state, (cut, more) in zip(rng.shuffled(setting.states), cases, strict=False):
+        sign = rng.choice((1, -1)) if cut is None else 1 if more == cut else -1
         old, new = rng.choice(_NEAR if cut is None else _MORE if more else _LESS)
         samples.append(
             Sample(

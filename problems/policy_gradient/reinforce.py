@@ -7,11 +7,19 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, StepSize
 from rldrill.problems.family import Question
 from rldrill.problems.phrases import discount, step_size
-from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
+from rldrill.problems.softmax import (
+    Episode,
+    draw_episode,
+    episode_blocks,
+    every_step_counts,
+    gradient,
+    gradient_parts,
+    returns,
+)
 
 TITLE = "REINFORCE"
 SOURCE = "Sutton & Barto 2018, section 13.3"
-REVISION = 8
+REVISION = 9
 
 
 class Given(Episode):
@@ -25,8 +33,10 @@ def draw(level: int, rng: Draws) -> Given:
     episode = draw_episode(level, rng)
     gamma = episode["gamma"]
     run = episode["trajectory"]
-    if not isinstance(gamma, Parameter) and not every_step_counts(run, returns(run, gamma)):
-        return draw(level, rng)
+    if not isinstance(gamma, Parameter):
+        found = returns(run, gamma)
+        if not every_step_counts(run, found) or 0 in gradient(episode, found):  # a weight would stay as it is
+            return draw(level, rng)
     return Given(**episode, alpha=rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5"))
 
 

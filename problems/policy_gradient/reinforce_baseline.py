@@ -17,13 +17,14 @@ from rldrill.problems.softmax import (
     draw_episode,
     episode_blocks,
     every_step_counts,
+    gradient,
     gradient_parts,
     returns,
 )
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 8
+REVISION = 9
 
 
 class Given(Episode):
@@ -48,6 +49,8 @@ def draw(level: int, rng: Draws) -> Given:
     differences = [G - baseline[state] for state, G in zip(run.states, returns(run, known), strict=False)]
     below = denominator(episode["theta"], episode["features"])
     if not every_step_counts(run, differences) or (level == 2 and sum(map(abs, differences)) * below > _MOST):
+        return draw(level, rng)
+    if 0 in gradient(episode, differences):  # a weight would stay as it is
         return draw(level, rng)
     alpha = rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5")
     return Given(**episode, baseline=baseline, alpha=alpha)

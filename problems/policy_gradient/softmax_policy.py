@@ -19,7 +19,7 @@ from rldrill.problems.softmax import draw_log_policy
 
 TITLE = "Softmax policy"
 SOURCE = "Sutton & Barto 2018, section 13.1"
-REVISION = 4
+REVISION = 5
 
 
 class Odds(NamedTuple):
@@ -99,11 +99,16 @@ def _open(rng: Draws, actions: tuple[str, ...]) -> Given:
 
 
 def _odds(rng: Draws, actions: tuple[str, ...]) -> Given:
-    """The weight ln x counts once more for one of two actions than for the other."""
+    """The weight ln x counts once more for one of two actions than for the other, and another weight differs, too."""
     count, size = rng.choice(((2, 2), (3, 2), (3, 3)))
     theta, rows = draw_log_policy(rng, ("s",), actions[:count], size)
     features = rows["s"]
-    pairs = [(a, b) for a in features for b in features if features[a][-1] > features[b][-1]]
+    pairs = [
+        (a, b) for a, row in features.items() for b, less in features.items()
+        if row[-1] > less[-1] and row[:-1] != less[:-1]
+    ]  # fmt: skip
+    if not pairs:
+        return _odds(rng, actions)
     action, other = rng.choice(pairs)
     lead = [x - y for x, y in zip(features[action], features[other], strict=True)]
     x = rng.fraction("2", "3", "4", "5", "3/2", "5/2", "1/2", "2/3")

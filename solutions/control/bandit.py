@@ -3,12 +3,16 @@
 from math import isqrt
 from typing import Any
 
+from sympy import Mul
+
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
-from rldrill.solutions.exact import Value, decimal, exact, told
+from rldrill.solutions.exact import Value, decimal, exact, to_sympy, told
 from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.control import (
     ALL_PULLS_COUNTED,
     ARM_ESTIMATE,
@@ -26,7 +30,7 @@ from rldrill.solutions.sheet.control import (
     UCB_ARM,
     UCB_BALANCE,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 MISCONCEPTIONS = (
     ALL_PULLS_COUNTED,
@@ -80,7 +84,8 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
         work.say(f"No bound is as great as that of an arm that was never pulled: {joined([*given.untried])}.")
         work.answer({NEXT: given.untried})
     else:
-        chosen = work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.tried)
+        work.recall(UCB_ARM)
+        chosen = work.value(UCB_ARM, t=known["t"], U=bounds, choices=given.tried)
         greedy = arg_max(tuple(averages), tuple(averages.values()))
         if set(chosen) & set(greedy):
             work.say(f"The greatest bound is that of {chosen[0]}, which has the greatest average, too.")
@@ -102,11 +107,8 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     """The weight with which both bounds are equal; above it the arm that was pulled less often is ahead."""
     better, rarer = given.between
     known = _counted(given, averages)
-    roots = [_root(known["t"], known["N"][arm]) for arm in given.between]
-    means = [told(averages[arm]) for arm in given.between]
-    equal = " = ".join(f"{mean} + c {root}" for mean, root in zip(means, roots, strict=True))
-    work.say(f"The bounds of {better} and {rarer} are equal if ${equal}$.")
-    work.say(f"So $c ({roots[1]} − {roots[0]}) = {means[0]} − {means[1]}${_shorter(known, better, rarer)}.")
+    if work.misconception is None:  # nobody reads the working of a mistake
+        _set_equal(work, known, better, rarer)
     weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
     work.say(
         lambda: (
@@ -117,19 +119,27 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     work.answer({NEXT: (rarer,)})
 
 
-def _root(time: int, count: Value) -> str:
-    """The root in the bound of an arm that was pulled so often, as mathematics."""
-    return f"√((ln {time})/{told(count)})" if count != 1 else f"√(ln {time})"
+def _set_equal(work: Work, known: dict[str, Any], better: str, rarer: str) -> None:
+    """The equation of both bounds, and what is left of it when the terms with c stand on one side."""
+    work.recall(UCB)
+    work.say(f"Let $a$ be {better} and $b$ {rarer}. Then $U(a) = U(b)$ if")
+    bounds = [put_in(UCB.right, {**known, "a": arm, "c": generator("c")}) for arm in (better, rarer)]
+    above, below = UCB_BALANCE.right.args
+    ahead, faster = (put_in(side, {**known, "a": better, "b": rarer}) for side in (above, below.base))
+    work.lines.append(Equality(bounds[0], (bounds[1],)))
+    work.lines.append(Equality(Mul(to_sympy(generator("c")), faster, evaluate=False), (ahead,)))
+    if shorter := _shorter(known, better, rarer):
+        work.say(shorter)
 
 
-def _shorter(known: dict[str, Any], better: str, rarer: str) -> str:
+def _shorter(known: dict[str, Any], better: str, rarer: str) -> str | None:
     """That one root is a multiple of the other, where the numbers of pulls are in the ratio of two squares."""
     times = known["N"][better] / known["N"][rarer]
     above, below = isqrt(int(times.p)), isqrt(int(times.q))
     if (above**2, below**2) != (times.p, times.q):
-        return ""
-    one, other = (_root(known["t"], known["N"][arm]) for arm in (better, rarer))
-    return f", where ${one} = {below}/{above}·{other}$"
+        return None
+    one, other = (f"√((ln {known['t']})/{told(known['N'][arm])})" for arm in (better, rarer))
+    return f"Here ${one} = {below}/{above}·{other}$."
 
 
 def _follow_gradient(given: Preferences, work: Work) -> None:

@@ -8,6 +8,7 @@ from rldrill.problems.exact import shown
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
@@ -17,8 +18,9 @@ from rldrill.solutions.sheet.control import (
     PLANNED_UPDATE,
     Q_LEARNING,
     TAKEN_FOR_MAX,
+    model_reward,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 Table = dict[tuple[str, str], Any]
 Model = dict[tuple[str, str], Entry]
@@ -33,6 +35,9 @@ def solve(given: Given, work: Work) -> None:
 def _act(given: Given, work: Work, model: Model) -> dict[str, Any]:
     """The real updates, and the part or two about them; what is known after them."""
     known = knowns.action_run(given)
+    work.say(
+        "After a transition the model holds what has followed: $r̂(s_t, a_t) ← r_{t+1}$ and $ŝ(s_t, a_t) ← s_{t+1}$."
+    )
     for time, entry in enumerate(given.tried):
         work.say(f"Real update at $t = {time}$, of the pair {_named(entry.pair)}:")
         known["Q"] = known["Q"] | {entry.pair: work.step(Q_LEARNING, t=time, **known)}
@@ -44,7 +49,9 @@ def _act(given: Given, work: Work, model: Model) -> dict[str, Any]:
             f"The model changes only where the agent has tried something, in {tried}; all other entries stay as they "
             "were."
         )
-        work.answer({pair: exact(model[pair].reward) for pair in given.learned})
+        rewards = {pair: exact(model[pair].reward) for pair in given.learned}
+        work.lines += [Equality(model_reward(*map(put_in_name, pair)), (value,)) for pair, value in rewards.items()]
+        work.answer(rewards)
     return known
 
 

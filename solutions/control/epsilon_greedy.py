@@ -49,7 +49,8 @@ def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
     elif given.state_value is not None:
         worth = _value(given, work, chances)
         work.say(f"This value is ${shown(given.state_value)}$:")
-        work.answer(_rate(work, worth, given.state_value))
+        epsilon = work.answer(_rate(work, worth, given.state_value))
+        work.answer(epsilon_greedy(work, given.state, values, epsilon))
 
 
 def _rate(work: Work, found: Value, wanted: Fraction) -> Value:
@@ -82,7 +83,7 @@ def _value(given: Given, work: Work, chances: dict[str, Value]) -> Value:
 @slip(
     "first-of-the-tied",
     "All actions that are tied for the best are greedy; the probability 1 − ε is shared among them.",
-    when=lambda given: len(given.best) > 1 and given.state_value is None,
+    when=lambda given: len(given.best) > 1,
 )
 def first_of_tied(given: Given, work: Work) -> None:
     """The probabilities as if the other best actions were worth less."""
@@ -97,9 +98,10 @@ def first_of_tied(given: Given, work: Work) -> None:
 )
 def value_of_best(given: Given, work: Work) -> None:
     """The probabilities, or ε; then the greatest action value."""
-    first, *_ = right_answers(solve, given, work)
+    first, *others = right_answers(solve, given, work)
     work.answer(first)
-    work.answer(exact(given.values[given.best[0]]))
+    for other in others:
+        work.answer(exact(given.values[given.best[0]]) if given.valued else other)
 
 
 MISCONCEPTIONS = (
@@ -123,8 +125,10 @@ def oracle(given: Given) -> Answers:
         place = list(given.values).index(given.taken.action)
         epsilon = float((at(given.taken.probability) - greedy[place]) / (explored[place] - greedy[place]))
     if given.state_value is not None:
-        return ((Q.max() - at(given.state_value)) / (Q.max() - Q.mean()),)
+        epsilon = (Q.max() - at(given.state_value)) / (Q.max() - Q.mean())
     chances = epsilon * explored + (1 - epsilon) * greedy
+    if given.state_value is not None:
+        return (epsilon, chances)
     return (epsilon if given.taken else chances, chances @ Q)[: 1 + given.valued]
 
 

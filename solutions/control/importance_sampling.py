@@ -39,7 +39,7 @@ def solve(given: Given, work: Work) -> None:
     ratios = answer if len(ratios) > 1 else (answer,)
     returns = {}
     for number, run in enumerate(runs, 1):
-        work.say(f"The return of episode {number}, $R^({number})$:")
+        work.say(f"The return $R_{{0, {number}}}$ of episode {number}:")
         returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
     work.say(f"Over the $n = {len(runs)}$ episode{'s' if len(runs) > 1 else ''}:")
     weighing: dict[str, Any] = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}

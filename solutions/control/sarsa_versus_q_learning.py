@@ -1,13 +1,14 @@
 """Both targets along a run, each method with its own copy of the table; or the step size from one, then the others."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from rldrill.problems.control.sarsa_versus_q_learning import Given, first_that_reads_again
+from rldrill.problems.control.sarsa_versus_q_learning import METHODS, Given, first_that_reads_again, method
+from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import Value, exact, told
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -53,12 +54,12 @@ def _asks_back(given: Given) -> bool:
 
 
 def _of_policies(given: Given) -> bool:
-    return given.word in ("on-policy", "off-policy")
+    return given.instead is None and given.word in ("on-policy", "off-policy")
 
 
 def solve(given: Given, work: Work) -> None:
     """The targets of the one method, or the step size from one of them; the targets of the other; then the word."""
-    _compare(given, work, _LETTERS[given.word])
+    _compare(given, work)
 
 
 def _targets(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
@@ -79,12 +80,25 @@ def _along(
     """
     known = knowns.action_run(given) | ({} if alpha is None else {"alpha": alpha})
     run = given.trajectory
+    moves = [*zip(run.states[:-2], run.actions, strict=False)][: steps and steps - 1]
+    read = [time for time, (state, _) in enumerate(moves) if state in run.states[time + 2 :]]
+    if moves:
+        work.say(_updates_needed(read))
     found = [(known, work.step(formula, t=0, **known))]
-    for time, pair in enumerate([*zip(run.states[:-2], run.actions, strict=False)][: steps and steps - 1]):
-        if pair[0] in run.states[time + 2 :]:
+    for time, pair in enumerate(moves):
+        if time in read:
             known = known | {"Q": known["Q"] | {pair: _moved(work, time, *found[-1])}}
         found.append((known, work.step(formula, t=time + 1, **known)))
     return found
+
+
+def _updates_needed(times: Sequence[int]) -> str:
+    """Which updates are written: those of states that are entered later on."""
+    if not times:
+        return "No state that is updated is entered later on, so all targets read the table as it was before the run."
+    at = joined([f"$t = {time}$" for time in times])
+    which = f"update at {at} is" if len(times) == 1 else f"updates at {at} are"
+    return f"Only the {which} written: no target reads what the others change."
 
 
 def _moved(work: Work, time: int, known: dict[str, Any], target: Value) -> Value:
@@ -94,12 +108,13 @@ def _moved(work: Work, time: int, known: dict[str, Any], target: Value) -> Value
 def _compare(
     given: Given,
     work: Work,
-    letter: str,
+    letter: str | None = None,
     formulas: tuple[Formula, ...] = (SARSA_TARGET, Q_LEARNING_TARGET),
     numbers: Callable[[Given, Work, Formula], tuple[Value, ...]] = _targets,
 ) -> None:
-    """The numbers that the formula of each method leads to, and the letter of the method that the word means."""
+    """The numbers that the formula of each method leads to; then the letter, where it is not the right one."""
     sarsa, q_learning = formulas
+    alpha = None
     if given.known is None:
         for formula in formulas:
             found = numbers(given, work, formula)
@@ -107,8 +122,36 @@ def _compare(
     else:
         alpha = _step_size(given, work, sarsa)
         work.answer(tuple(target for _, target in _along(given, work, q_learning, alpha)))
-    work.say(_WHY[given.word])
+    _name(given, work, alpha, letter)
+
+
+def _name(given: Given, work: Work, alpha: Value | None, letter: str | None = None) -> None:
+    """The last answer: by the word, or by what the targets would be with the other value."""
+    if given.instead is None:
+        work.say(_WHY[given.word])
+        work.answer(letter or _LETTERS[given.word])
+        return
+    other = given.model_copy(update={"values": given.changed})
+    changes = [_change(given, other, work, formula, alpha) for formula in (SARSA_TARGET, Q_LEARNING_TARGET)]
+    letter = method(sarsa=changes[0], q_learning=changes[1])
+    work.say(f"So the answer is: {METHODS[letter]}.")
     work.answer(letter)
+
+
+def _change(given: Given, other: Given, work: Work, formula: Formula, alpha: Value | None) -> bool:
+    """Whether a target of a method changes with the other value; the first that does is told."""
+    name, why = (
+        ("Sarsa", "none of them takes the value of this action")
+        if formula is SARSA_TARGET
+        else ("Q-learning", "in none of them is this value the greatest")
+    )
+    before, after = ([target for _, target in _along(run, Work(), formula, alpha)] for run in (given, other))
+    for time, (old, new) in enumerate(zip(before, after, strict=True)):
+        if old != new:
+            work.say(f"{name}'s target $y_{{{time}}}$ would be ${told(new)}$, not ${told(old)}$.")
+            return True
+    work.say(f"{name}'s targets would stay the same: {why}.")
+    return False
 
 
 def _step_size(given: Given, work: Work, formula: Formula) -> Value:
@@ -127,7 +170,7 @@ def _step_size(given: Given, work: Work, formula: Formula) -> Value:
 )
 def targets_swapped(given: Given, work: Work) -> None:
     """The targets of the other method."""
-    _compare(given, work, _LETTERS[given.word], formulas=(Q_LEARNING_TARGET, SARSA_TARGET))
+    _compare(given, work, formulas=(Q_LEARNING_TARGET, SARSA_TARGET))
 
 
 def _updates(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
@@ -141,7 +184,7 @@ def _updates(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
 )
 def update_for_target(given: Given, work: Work) -> None:
     """The values that were moved towards the targets."""
-    _compare(given, work, _LETTERS[given.word], numbers=_updates)
+    _compare(given, work, numbers=_updates)
 
 
 @slip(
@@ -151,12 +194,11 @@ def update_for_target(given: Given, work: Work) -> None:
 )
 def old_table(given: Given, work: Work) -> None:
     """Q-learning's targets are all read from the table before the run."""
-    _step_size(given, work, SARSA_TARGET)
+    alpha = _step_size(given, work, SARSA_TARGET)
     known = knowns.action_run(given)
     times = range(len(given.trajectory.rewards))
     work.answer(tuple(work.step(Q_LEARNING_TARGET, t=time, **known) for time in times))
-    work.say(_WHY[given.word])
-    work.answer(_LETTERS[given.word])
+    _name(given, work, alpha)
 
 
 @slip(
@@ -204,14 +246,24 @@ MISCONCEPTIONS = (
 
 def oracle(given: Given) -> Answers:
     """Each method as a policy of the next action; the step size from two trials, for the target is linear in it."""
-    letters = {"on": "A", "off": "B", "model-free": "C", "boot": "C"}
-    letter = next((letter for word, letter in letters.items() if given.word.startswith(word)), "D")
     if given.known is None:
+        letter = _by_oracle(given)
         return [_tried(given, greedy=False), _tried(given, greedy=True), letter]
     place = first_that_reads_again(given.trajectory) or 0
     low, high = (_tried(_with(given, Fraction(trial)), greedy=False)[place] for trial in ("1/4", "3/4"))
     alpha = 1 / 4 + (at(given.known) - low) / (high - low) / 2
-    return [alpha, _tried(_with(given, Fraction(alpha).limit_denominator(10**6)), greedy=True), letter]
+    solved = _with(given, Fraction(alpha).limit_denominator(10**6))
+    return [alpha, _tried(solved, greedy=True), _by_oracle(solved)]
+
+
+def _by_oracle(given: Given) -> str:
+    """The letter of the word; or that of the methods whose targets move with the other value."""
+    if given.instead is None:
+        letters = {"on": "A", "off": "B", "model-free": "C", "boot": "C"}
+        return next((letter for word, letter in letters.items() if given.word.startswith(word)), "D")
+    other = given.model_copy(update={"values": given.changed})
+    moved = [not np.allclose(_tried(given, greedy=way), _tried(other, greedy=way)) for way in (False, True)]
+    return {(True, False): "A", (False, True): "B", (True, True): "C", (False, False): "D"}[moved[0], moved[1]]
 
 
 def _with(given: Given, alpha: Fraction) -> Given:

@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero, sign
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.matrices import AnyMatrix
@@ -42,8 +42,15 @@ def _maximum(given: Given, work: Work, Q: Mapping[str, AnyMatrix]) -> None:
     negative = f"${of} < 0$" if len(given.action) == 1 else f"${of}$ is negative definite"
     work.say(f"{negative}: where the derivative with respect to the action is $0$, $Q$ is greatest.")
     work.recall(DDP)
-    work.answer(_applied(given, work, formulas.change, Q))
-    work.answer(_applied(given, work, formulas.gain, Q))
+    k = work.answer(_applied(given, work, formulas.change, Q))
+    K = work.answer(_applied(given, work, formulas.gain, Q))
+    if given.reached is not None:
+        s, s_bar = (
+            matrices.column(dynamics.angle(state[name]) for name in given.states)
+            for state in (given.reached, given.state)
+        )
+        a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
+        work.answer(_applied(given, work, DDP, {"abar": a_bar, "kd": k, "Kd": K, "sv": s, "sbar": s_bar}))
 
 
 def _is_scalar(given: Given) -> bool:
@@ -77,17 +84,17 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
     Q = {}
     scalar, formulas = _is_scalar(given), _formulas(given)
     if not scalar:
-        work.say(
-            "$f_s$ and $f_a$ are the matrices $A$ and $B$ of the linearisation; $r$ is differentiated in the same way."
-        )
+        work.say("$f_s$ and $f_a$ are the matrices $A$ and $B$ of the linearisation.")
     for code, by, formula, gradient in (
         ("s", names, STATE_JACOBIAN, formulas.s), ("a", actions, INPUT_JACOBIAN, formulas.a),
     ):  # fmt: skip
-        of_r, of_f = (derivative_of(head, code) if scalar else formula for head in "rf")
+        of_r, of_f = derivative_of("r", code), derivative_of("f", code) if scalar else formula
         known[f"r_{code}"] = matrices.column(_first(work, of_r, values, given.reward, "r", name) for name in by)
         known[f"f_{code}"] = matrices.matrix(
             [_first(work, of_f, values, text, index, name) for name in by] for index, text in texts.items()
         )
+        if any(is_zero(entry) for head in "rf" for entry in known[f"{head}_{code}"].entries()):
+            work.say("The other derivatives are zero.")
         Q[f"Q_{code}"] = work.answer(_applied(given, work, gradient, known))
     if not scalar:
         work.say(
@@ -203,10 +210,12 @@ def oracle(given: Given) -> Answers:
 
     hessian = np.array([_difference(gradient, values, name) for name in names])
     g, aa = gradient(values), hessian[n:, n:]
-    return (
-        g[:n], g[n:], hessian[:n, :n], hessian[n:, :n], aa,
-        -np.linalg.solve(aa, g[n:]), -np.linalg.solve(aa, hessian[n:, :n]),
-    )  # fmt: skip
+    k, K = -np.linalg.solve(aa, g[n:]), -np.linalg.solve(aa, hessian[n:, :n])
+    answers = (g[:n], g[n:], hessian[:n, :n], hessian[n:, :n], aa, k, K)
+    if given.reached is None:
+        return answers
+    aside = [dynamics.radians(given.reached[name]) - values[name].real for name in given.states]
+    return (*answers, [values[name].real for name in given.action] + k + K @ aside)
 
 
 def _next(given: Given, values: Mapping[str, complex]) -> Callable[[Mapping[str, complex]], list[complex]]:

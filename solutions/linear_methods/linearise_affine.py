@@ -2,7 +2,7 @@
 
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.linearisation import (
     Linearised,
     after,
@@ -35,17 +35,27 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
     f_bar = moved_point(given, work, s_bar, rates(work, given))
+    if given.moved:
+        f_bar = work.answer(f_bar)
     _augmented(given, work, A, B, work.step(affine_step().constant, Fbar=f_bar, Ad=A, Bd=B, sbar=s_bar, abar=a_bar))
 
 
 def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
     C = work.answer(C)
-    larger = work.step(affine_step().state, Ad=A, Cc=C)
+    larger = _put_together(work, affine_step().state, Ad=A, Cc=C)
     if given.entries is None:
         work.answer(larger)
-        work.answer(work.step(affine_step().action, Bd=B))
+        work.answer(_put_together(work, affine_step().action, Bd=B))
     else:
         work.answer(matrices.column(line[-1] for line in larger.tolist()))
+
+
+def _put_together(work: Work, formula: Formula, **blocks: AnyMatrix) -> AnyMatrix:
+    """A matrix of blocks: nothing is worked out, only copied."""
+    work.recall(formula)
+    whole: AnyMatrix = work.value(formula, **blocks)
+    work.give(formula, whole)
+    return whole
 
 
 @slip(
@@ -57,7 +67,11 @@ def rates_for_c(given: Given, work: Work) -> None:
     A, B = rightly(given)
     if given.entries is not None:
         A, B = (answered(work, given.entries, which, found) for which, found in zip("AB", (A, B), strict=True))
-    _augmented(given, work, A, B, rates(work, given))
+    found = rates(work, given)
+    if given.moved:
+        s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
+        work.answer(moved_point(given, work, s_bar, found))
+    _augmented(given, work, A, B, found)
 
 
 MISCONCEPTIONS = (C_IS_F, rates_for_c, *slips(solve), FORGOT_IDENTITY)
@@ -75,6 +89,7 @@ def oracle(given: Given) -> Answers:
     n, m = B.shape
     operating = np.real([values[name] for name in (*given.states, *given.action)])
     C = moved - np.hstack([A, B]) @ operating
+    constant = [moved, C] if given.moved else [C]
     if given.entries is not None:
-        return [*chosen(given.entries, A, B), C, np.append(C, 1.0)]
-    return [C, np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]), np.vstack([B, np.zeros((1, m))])]
+        return [*chosen(given.entries, A, B), *constant, np.append(C, 1.0)]
+    return [*constant, np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]), np.vstack([B, np.zeros((1, m))])]

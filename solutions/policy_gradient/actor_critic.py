@@ -7,6 +7,8 @@ from rldrill.problems.policy_gradient.actor_critic import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.nodes.leaves import put_in_name
+from rldrill.solutions.formula.notation import V
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
@@ -17,7 +19,7 @@ from rldrill.solutions.sheet.policy_gradient import (
     WEIGHTED_BY_REWARD,
 )
 from rldrill.solutions.softmax import by_number, chances, known_run, log_gradient, score
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 
 def solve(given: Given, work: Work) -> None:
@@ -29,8 +31,11 @@ def solve(given: Given, work: Work) -> None:
 
     values = before
     last = known["T"] - 1
-    for time in range(last):  # these steps stand in the working of (a) already
+    for time in range(last):  # these steps stand in the working of (a)
         values = values | {run.states[time]: work.value(CRITIC, t=time, V=values, **known)}
+    if earlier := [state for state in given.visited if state != run.states[last]]:
+        work.say("From the updates in (a):")
+        work.lines += [Equality(V(put_in_name(state)), (values[state],)) for state in earlier]
     values = values | {run.states[last]: work.step(CRITIC, t=last, V=values, **known)}
     work.answer({state: values[state] for state in given.visited})
 

@@ -121,29 +121,37 @@ def _thresholds(work: Work, known: Mapping[str, Any]) -> None:
     """Below which ε every gradient is cut off, and what is left of the objective where all of them are."""
     for formula in (PPO_UNCLIPPED, PPO_CLIPPED, PPO):
         work.recall(formula)
+    known = {**known, "unclipped": {}}
     bounds: dict[int, Value] = {}
     for time, ratio in known["rho"].items():
+        known["unclipped"][time] = work.step(PPO_UNCLIPPED, t=time, **known)
         wanted, moved = _words(known["A_t"][time]), _words(ratio - 1)
         said = f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely"
         if not _can_be_cut(known, time):
             work.say(f"{said}: $u_{{{time}}}$ is never the larger term, so no $ε$ cuts off this gradient: $0$.")
             bounds[time] = ZERO
             continue
-        above = sign(ratio - 1) > 0
-        bound = "upper" if above else "lower"
-        work.say(f"{said}: $c_{{{time}}}$ is the smaller term until the {bound} bound reaches $ρ_{{{time}}}$:")
-        edge = 1 + known["epsilon"] if above else 1 - known["epsilon"]
-        bounds[time] = work.equate("epsilon", edge, ratio)
+        bound = "upper" if sign(ratio - 1) > 0 else "lower"
+        work.say(f"{said}: the {bound} bound stands for $ρ_{{{time}}}$ until the term is as large as $u_{{{time}}}$:")
+        bounds[time] = work.equate("epsilon", _at_the_bound(work, known, time), known["unclipped"][time])
     _given(work, list(bounds.values()))
     left = {}
+    work.say("As $ε$ goes to $0$:")
     for time in bounds:
         if _can_be_cut(known, time):
-            left[time] = known["A_t"][time]
-            work.say(f"As $ε$ goes to $0$, $ρ_{{{time}}}$ is clipped to $1$: $L_{{{time}}}$ goes to $A_{{{time}}}$.")
+            left[time] = _at_the_bound(work, {**known, "epsilon": ZERO}, time, "→")
         else:
-            work.say(f"$L_{{{time}}}$ stays the unclipped term:")
-            left[time] = work.step(PPO_UNCLIPPED, t=time, **known)
-    work.answer(work.step(PPO_BATCH, L_t=left, **known) if len(left) > 1 else left[0])
+            left[time] = known["unclipped"][time]
+            work.say(f"$L_{{{time}}}$ stays the unclipped term, $u_{{{time}}} = {told(left[time])}$.")
+    work.answer(work.step(PPO_BATCH, L_t=left, sign="→", **known) if len(left) > 1 else left[0])
+
+
+def _at_the_bound(work: Work, known: Mapping[str, Any], time: int, relation: str = "=") -> Value:
+    """An objective whose ratio is clipped, with the bound that stands for the ratio."""
+    above = sign(known["rho"][time] - 1) > 0
+    formula = PPO_AT_THE_UPPER_BOUND if above else PPO_AT_THE_LOWER_BOUND
+    held: Value = work.step(formula, t=time, sign=relation, **known)
+    return held
 
 
 def _words(number: Value) -> str:
@@ -168,7 +176,7 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
         f"terms. The mean of all unclipped terms is ${told(unclipped)}$, but $L = {told(objective)}$ is less, so "
         f"$ρ_{{{one}}}$ is clipped:"
     )
-    held = work.step(PPO_AT_THE_UPPER_BOUND if above else PPO_AT_THE_LOWER_BOUND, t=one, **known)
+    held = _at_the_bound(work, known, one)
     mean = work.step(PPO_BATCH, L_t={**known["unclipped"], one: held}, **known)
     epsilon = work.equate("epsilon", mean, objective)
     if sign(epsilon) <= 0 or sign(absolute(known["rho"][one] - 1) - epsilon) < 0:

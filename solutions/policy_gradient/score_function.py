@@ -5,12 +5,15 @@ from typing import Any
 
 from rldrill.problems.policy_gradient.score_function import Component, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact, value_at
+from rldrill.solutions.exact import Value, exact, to_sympy, value_at
+from rldrill.solutions.formula.nodes.leaves import put_in_name
+from rldrill.solutions.formula.notation import pi
+from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import EXPECTED_ADDED, FEATURES_ALONE
 from rldrill.solutions.softmax import action_features, by_number, chances, log_gradient, score
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 MISCONCEPTIONS = (FEATURES_ALONE, EXPECTED_ADDED)
 
@@ -39,7 +42,12 @@ def _from_component(given: Given, component: Component, work: Work, known: Mappi
     entries = tuple(score(work, {**known, "pi": opened}, "s", given.action or "", tuple(given.features)))
     work.say(f"The component that belongs to $θ_{{{component.number}}}$ is known:")
     p = work.answer(work.equate("p", entries[component.number - 1], exact(component.value)))
-    return {action: value_at(chance, p) for (action, _), chance in opened.items()}
+    found = {action: value_at(chance, p) for (action, _), chance in opened.items()}
+    for action, chance in found.items():
+        in_letters = to_sympy(opened[action, "s"])
+        sides = (in_letters, put_in(in_letters, {"p": p}), chance)
+        work.lines.append(Equality(pi(put_in_name(action), put_in_name("s")), sides))
+    return found
 
 
 def oracle(given: Given) -> Answers:

@@ -4,7 +4,18 @@ from typing import Any
 
 from sympy import Expr, evaluate, exp, log, sqrt
 
-from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
+from rldrill.problems.mathematics import (
+    Accent,
+    Fence,
+    Math,
+    Script,
+    listed,
+    number,
+    operator,
+    punctuation,
+    row,
+    variable,
+)
 from rldrill.solutions.asking_back import asks_for
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
@@ -66,7 +77,8 @@ Selected = quantity("selected", lambda time: Script(variable("a"), time, operato
 behaviour = quantity("behaviour", conditioned("b"))
 rho = quantity("rho", subscripted("ρ"))
 V_hat = quantity("V", called(Script(Accent(variable("V"), "hat"), above=variable("π"))))
-Ri = quantity("Ri", lambda episode: Script(variable("R"), above=Fence(episode)))
+#: R₀ of an episode; the lecture writes an n in brackets above the R for a return of n steps.
+Ri = quantity("Ri", lambda episode: Script(variable("R"), row(number(0), punctuation(","), episode)))
 N = quantity("N", called("N"))
 U = quantity("U", called("U"))
 H = quantity("H", called("H"))

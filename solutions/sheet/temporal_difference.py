@@ -38,8 +38,9 @@ from rldrill.solutions.formula.notation import (
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 
-#: The λ-return, eligibility traces, the count of visits, the visits themselves and the weights of their returns.
+#: The λ-return, TD errors, eligibility traces, the count of visits, the visits and the weights of their returns.
 Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
+delta = quantity("delta", subscripted("δ"))
 e = quantity("e", called("e"))
 N = quantity("count", called("n"))
 Visits = quantity("visits", called("T"))
@@ -239,6 +240,16 @@ with evaluate(False):
         hint="One TD error, that of the transition, goes to every state in proportion to its trace.",
         sign="←",
         note="For all $s$. Some sheets print $V(s)$ inside the TD error; it belongs to the state that was left, $s_t$.",
+    )
+    TD_LAMBDA_BY_ERROR = Formula(
+        "td-lambda-by-error",
+        V(s),
+        V(s) + alpha * delta(t) * e(s),
+        title="TD(λ) update by the TD error",
+        source="Sutton & Barto 2018, eqs. 12.6 and 12.7, for a table",
+        hint="The TD error is worked out once, with the values before the transition; every state takes its share.",
+        sign="←",
+        place=Place.WORKING,
         misread={
             LITERAL_VALUE: V(s) + alpha * e(s) * (r(t + 1) + gamma * V(S(t + 1)) - V(s)),
         },

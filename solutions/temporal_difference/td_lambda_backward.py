@@ -10,12 +10,14 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find_and_finish, found_and_finished
+from rldrill.solutions.sheet.policy_gradient import TD_ERROR
 from rldrill.solutions.sheet.temporal_difference import (
     ACCUMULATING,
     ELIGIBILITY_TRACE,
     LITERAL_VALUE,
     REPLACING_TRACE,
     TD_LAMBDA_BACKWARD,
+    TD_LAMBDA_BY_ERROR,
 )
 from rldrill.solutions.work import Work
 
@@ -74,6 +76,7 @@ def _learned(
     values = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
     traces: Traces = {}
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
+    work.recall(TD_LAMBDA_BACKWARD)
     if len(given.visited) > 1:
         work.say("The trace of a state that was not visited yet is $0$; its lines are left out.")
     for time, state in enumerate(run.states[:-1]):
@@ -81,7 +84,8 @@ def _learned(
         before = traces | {state: traces.get(state, ZERO)}
         traces = {s: work.step(formula, s=s, t=time, e=before, **known) for s in before}
         e = moving(state, before, traces)
-        values = values | {s: work.step(TD_LAMBDA_BACKWARD, s=s, t=time, V=values, e=e, **known) for s in e}
+        known["delta"] = {time: work.step(TD_ERROR, t=time, V=values, **known)}
+        values = values | {s: work.step(TD_LAMBDA_BY_ERROR, s=s, t=time, V=values, e=e, **known) for s in e}
     return {state: values[state] for state in given.visited}
 
 

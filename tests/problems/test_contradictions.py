@@ -87,6 +87,10 @@ MATCHED: dict[str, Any] = {
     "motion": {"x": {"a": {"end": 1}}, "y": {"a": {"a": "1/2", "end": "1/2"}}}, "policy": {"a": {"x": "q", "y": "1-q"}},
     "features": {"a": [4]}, "start": {"a": 1}, "terminal": ["end"], "gamma": "1/2", "matched": 5,
 }  # fmt: skip
+MEETING: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [1]},
+    "values": {"a": {"x": 1, "y": 2}, "b": {"x": 3, "y": 4}}, "alpha": "1/2", "gamma": "1/2", "instead": ["b", "x", 5],
+}  # fmt: skip
 DDP: dict[str, Any] = {
     "dynamics": {"v": "v + u"}, "state": {"v": 1}, "action": {"u": 1}, "reward": "-(v^2 + u^2)", "gradient": [-3],
     "hessian": -2,
@@ -325,6 +329,8 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("ddp-backward", DDP, {"reward": "-(v^2 + k*u^2)"}, "the reward holds 'k', which has no value"),
     ("ddp-backward", DDP, {"gradient": [-3, 1]}, "gradient has 2 entries, but the state 1"),
     ("ddp-backward", DDP, {"hessian": [[-2, 0], [0, -1]]}, "hessian"),
+    ("ddp-backward", DDP, {"reached": {"w": 2}}, "reached must have the letters of the state"),
+    ("sarsa-versus-q-learning", MEETING, {"instead": ["b", "z", 1]}, "instead: 'z' has no value in 'b'"),
     ("linearise-affine", AFFINE, {"step": None}, "step is missing: the 1 that is added to the state stays 1"),
     ("lqr-gain", GAIN, {"start": [2, 1]}, "start has 2 entries, but the state 1"),
     ("lqr-gain", GAIN, {"start": None}, "action: it goes with a start, and with a price that R leaves open"),

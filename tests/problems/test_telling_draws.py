@@ -1,15 +1,18 @@
 """What is drawn tells whether somebody has understood: the point of a question cannot be missed by accident."""
 
+import math
 import re
 from collections import Counter
 from fractions import Fraction
+from itertools import combinations, groupby
 from typing import Any
 
 import pytest
+import sympy
 
 import rldrill
 from rldrill.solutions.drawing import draw
-from tests.problems.test_promises import drawn
+from tests.problems.test_promises import drawn, worth
 
 
 def q_learning_targets(given: Any, alpha: Fraction, *, moved: bool) -> list[Fraction]:
@@ -117,3 +120,102 @@ def test_every_error_of_an_advantage_counts() -> None:
 def test_whether_a_policy_is_optimal_is_not_always_answered_alike(level: int) -> None:
     verdicts = Counter([*draw("policy-iteration", level, seed).answers.values()][-1] for seed in range(40))
     assert min(verdicts[True], verdicts[False]) > 5
+
+
+def test_each_table_of_double_q_learning_has_its_turns_in_one_go() -> None:
+    for given in drawn("double-q-learning", (1, 2, 3)):
+        assert len(list(groupby(given.updates))) == len(set(given.updates))
+
+
+def test_no_action_is_left_out_of_the_average_of_an_epsilon_greedy_policy() -> None:
+    for given in drawn("epsilon-greedy", (2, 3)):
+        assert all(given.values.values())
+    for given in drawn("epsilon-greedy", (3,)):
+        assert len(given.values) > 2
+        assert given.state_value is not None
+
+
+def test_a_softmax_weight_is_not_the_number_that_is_printed() -> None:
+    searched = 0
+    for seed in range(60):
+        solution = draw("softmax-policy", 3, seed)
+        given: Any = solution.problem.given
+        if given.odds is not None:
+            searched += 1
+            assert solution.answers["a"] not in (given.odds.times, 1 / given.odds.times), seed
+    assert searched > 5
+
+
+def test_second_derivatives_count_from_level_2_on() -> None:
+    assert not any(given.second_order for given in drawn("ddp-backward", (1,)))
+    second = list(drawn("ddp-backward", (2,)))
+    assert all(given.second_order for given in second)
+    assert 0 < sum(given.reached is not None for given in second) < len(second)
+
+
+def test_no_tank_runs_dry_in_a_step_and_no_state_is_forgotten() -> None:
+    tanks = 0
+    for given in drawn("linearise-affine", (1, 2)):
+        letters = {name: float(value) for name, value in given.constants.items()}
+        letters |= {name: float(value.number) for name, value in {**given.state, **given.action}.items()}
+        for name, rate in given.dynamics.items():
+            if "sqrt" in rate:
+                tanks += 1
+                assert letters[name] + float(given.step) * worth(rate, letters) > 0, given
+                # A hole lets the height fall at c √h / S, so one step keeps 1 − Δt c/(2 S √h) of a deviation of it.
+                hole, area = (f"{letter}_{name[2:]}" if "_" in name else letter for letter in "cS")
+                loss = letters[hole] / (2 * letters[area] * math.sqrt(letters[name]))
+                assert 1 - float(given.step) * loss > 0.5, given
+    assert tanks > 20
+
+
+def test_current_values_are_spoken_of_where_a_row_that_has_changed_is_read_again() -> None:
+    told: Counter[bool] = Counter()
+    for level in (1, 2, 3):
+        for seed in range(25):
+            given: Any = draw("expected-sarsa", level, seed).problem.given
+            states = given.trajectory.states
+            again = any(after in states[:time] for time, after in enumerate(states[1:]))
+            if hasattr(given, "epsilon"):
+                text = " ".join(str(rldrill.draw("expected-sarsa", level, seed).question()).split())
+                assert ("values that are current at each update" in text) == again
+                told[again] += 1
+    assert min(told[True], told[False]) > 3
+
+
+def test_features_of_a_linear_policy_tell_actions_and_weights_apart() -> None:
+    for given in drawn("linear-policy", (1, 2)):
+        for rows in given.features.values():
+            for one, other in combinations(rows.values(), 2):
+                assert sympy.Matrix([one, other]).rank() == 2, given
+        columns = [*zip(*(row for rows in given.features.values() for row in rows.values()), strict=True)]
+        assert len(set(columns)) == len(columns)
+
+
+def test_no_two_samples_of_ppo_are_the_same_case() -> None:
+    for given in drawn("ppo-clip", (2,)):
+        cases = []
+        for sample in given.samples:
+            ratio = sample.new / sample.old
+            inside = 1 - given.epsilon <= ratio <= 1 + given.epsilon
+            cases.append((inside, not inside and ratio > 1, not inside and sample.advantage > 0))
+        assert len(set(cases)) == len(cases), given
+
+
+@pytest.mark.parametrize("family", ["reinforce", "reinforce-baseline"])
+def test_no_weight_of_a_policy_gradient_stays_as_it_is(family: str) -> None:
+    for level in (1, 2, 3):
+        for seed in range(25):
+            assert all(str(entry) != "0" for entry in draw(family, level, seed).answers["b"]), (level, seed)
+
+
+def test_the_target_that_is_known_is_sarsas_alone() -> None:
+    letters: Counter[str] = Counter()
+    for seed in range(60):
+        solution = draw("sarsa-versus-q-learning", 3, seed)
+        given: Any = solution.problem.given
+        pairs = [*zip(given.trajectory.states, given.trajectory.actions, strict=False)]
+        again = next(time for time in range(1, len(pairs)) if pairs[time + 1] in pairs[:time])
+        assert solution.answers["b"][again] != given.known
+        letters[solution.answers["c"]] += 1
+    assert min(letters[letter] for letter in "ABCD") > 4

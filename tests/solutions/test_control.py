@@ -247,3 +247,21 @@ def test_an_action_that_a_policy_leaves_out_is_not_taken() -> None:
 def test_an_arm_that_was_never_pulled_is_named(arms: list[str], said: str) -> None:
     exercise = rldrill.read({"family": "bandit", "given": {"arms": arms, "pulls": [["a", 1], ["b", 0]], "c": 1}})
     assert said in str(exercise.question())
+
+
+@pytest.mark.parametrize(
+    ("instead", "letter"),
+    [
+        (["b", "y", 5], "A"),  # y₀ of Sarsa is 1 + 1/2·Q(b, y); the greatest of 8 and 5 is 8 as before
+        (["b", "x", 6], "B"),  # y₀ of Q-learning is 1 + 1/2·8, and 1 + 1/2·6 then
+        (["b", "y", 9], "C"),  # the action taken is the best one then
+        (["b", "x", 9], "B"),
+        (["a", "y", 9], "D"),  # no target reads the state that was left
+    ],
+)
+def test_whose_targets_hang_on_an_action_value(instead: list[Any], letter: str) -> None:
+    answers = solved(
+        "sarsa-versus-q-learning", trajectory={"states": ["a", "b"], "actions": ["x", "y"], "rewards": [1]},
+        values={"a": {"x": 1, "y": 2}, "b": {"x": 8, "y": 4}}, alpha="1/2", gamma="1/2", instead=instead,
+    )  # fmt: skip
+    assert answers["c"] == letter

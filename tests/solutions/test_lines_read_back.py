@@ -35,6 +35,7 @@ def drawn(name: str) -> list[Solution]:
 def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]]]:
     """The sides of the equations that are solved in front of the reader, and what the unknowns in them are."""
     group: list[Equality] = []
+    before: dict[Expr, Expr] = {}  # a letter that was found is put in later
     for line in solution.lines:
         letters = {unicode(typeset(letter)): letter for each in group for letter in unknowns(each)}
         if isinstance(line, Step) and (letter := letters.get(unicode(line.equation().left))):  # P = −b − √… ends it
@@ -51,7 +52,8 @@ def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]
             group.append(line)
             left, right = sides(line)[0], sides(line)[-1]
             if isinstance(left, sympy.Symbol | Quantity) and not right.has(left):  # γ = 3/4 ends it
-                yield from ((sides(each), {left: right}) for each in group)
+                before[left] = right
+                yield from ((sides(each), dict(before)) for each in group)
                 group = []
     assert not group
 
