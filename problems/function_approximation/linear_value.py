@@ -27,7 +27,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear action values"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 4
+REVISION = 5
 
 
 class Bumps(Centred):

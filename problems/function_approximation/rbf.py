@@ -28,7 +28,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
 SOURCE = "Sutton & Barto 2018, section 9.5.5"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Centred):

@@ -1,7 +1,6 @@
 """The scalar Riccati equation by its quadratic; a larger system by its modes, if it has any, else in decimals."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import sympy
@@ -399,10 +398,7 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
 MISCONCEPTIONS = (
     OTHER_ROOT,
     POSITIVE_S,
-    replace(
-        linear_quadratic.cost_to_go(solve, slice(1)),
-        when=lambda given: given.convention == "value" and given.closed_loop is None,
-    ),
+    linear_quadratic.cost_to_go(solve, lambda given: slice(1) if given.closed_loop is None else slice(1, None)),
 )
 
 
