@@ -8,6 +8,7 @@ from flint import fmpq
 from sympy import Expr
 
 from rldrill.problems.document import joined
+from rldrill.problems.exact import needed
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
@@ -95,7 +96,7 @@ def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator)
     L, P = given.notation.gain, given.notation.value
     system = {f"{name}i": getattr(regulator, name) for name in "ABQR"} | {"gamma": regulator.gamma}
     loop = work.step(formulas.closed_loop, **system, **{f"{L}i": _single(generator(L))})
-    gain = work.equate(L, loop[0, 0], exact(given.closed_loop or 0))
+    gain = work.equate(L, loop[0, 0], exact(needed(given.closed_loop)))
 
     def riccati(value: Value) -> Value:
         found = work.step(formulas.equation, **system, **{f"{L}i": _single(gain), f"{P}i": _single(value)})
@@ -428,6 +429,6 @@ def _priced(given: Given) -> Answers:
         entry = Fraction(middle)
         priced = given.model_copy(update={given.unknown: ((entry,),), "closed_loop": None})
         S, _, loop = oracle(priced)
-        wide = abs(loop[0, 0]) > abs(at(given.closed_loop or 0))
+        wide = abs(loop[0, 0]) > abs(at(needed(given.closed_loop)))
         prices[int(wide == (given.unknown == "R"))] = middle
     return (middle, S[0, 0])
