@@ -867,3 +867,9 @@ def test_a_colon_elsewhere_is_not_understood(text):
 
 def test_two_forms_of_different_shapes_are_not_equal():
     assert "are not equal" in refusal(read_matrix, "1,=1,1").message
+
+
+def test_a_number_stands_in_the_brackets_of_a_list_or_of_a_matrix_and_in_no_more() -> None:
+    assert [read_number(text).value for text in ("7/4", "[7/4]", "[[7/4]]")] == [fmpq(7, 4)] * 3
+    with pytest.raises(Unreadable, match="use round brackets"):
+        read_number("[[[7/4]]]")
