@@ -239,6 +239,17 @@ def test_what_is_paid_back_at_once_does_no_harm_where_there_is_a_good_end() -> N
     assert answers["b"] == {"a": ("x",), "b": ("go",)}
 
 
+def test_what_a_loop_pays_on_average_is_exact_up_to_eight_digits() -> None:
+    def said(reward: str) -> str:
+        model = undiscounted([["a", "go", "a", 1, reward]], ())
+        with pytest.raises(NoSolution) as told:
+            optimum(model, Fraction(1))
+        return str(told.value)
+
+    assert "1234/5679" in said("1234/5679")
+    assert "about 0.2173" in said("12340/56787")
+
+
 def test_a_policy_that_pays_for_ever_is_told_where() -> None:
     rows = [
         ["s1", "left", "s1", 1, -1],
