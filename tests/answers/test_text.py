@@ -347,6 +347,8 @@ def test_entries_of_vectors_may_be_expressions():
         ("[1]", 2, "1 number was read, 2 are needed."),
         ("3,5", 1, "2 numbers were read, 1 is needed. Decimals are written with a point"),
         ("1,5; 2,5", 2, "1,5 has a decimal comma; write 1.5."),
+        ("-1 -0,5", 2, "0,5 has a decimal comma; write 0.5."),
+        ("x = -1 -0,5", 2, "0,5 has a decimal comma; write 0.5."),
         ("1, 2; 3", 3, "Commas and semicolons are mixed"),
         ("1, foo", 2, "entry 2: 'foo' is not"),
         ("1,,2", 3, "entry 2: Nothing was typed."),
