@@ -6,7 +6,7 @@ from itertools import starmap
 from math import isqrt, sqrt
 from numbers import Rational
 from operator import mul
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from pydantic import BeforeValidator, Field, PlainSerializer, ValidationInfo, WithJsonSchema
 
@@ -16,6 +16,8 @@ from rldrill.problems.latex import typed
 from rldrill.problems.notation import Name, Node, Operation, nodes, whole, worked_out
 from rldrill.problems.readings import meant, note_of
 from rldrill.problems.spelling import Unreadable
+
+T = TypeVar("T")
 
 _ZERO = Fraction(0)
 _LONGEST = 200
@@ -202,6 +204,12 @@ def dot(first: Iterable[Fraction], second: Iterable[Fraction]) -> Fraction:
 @lru_cache(maxsize=4096)  # the same numbers are shown again and again
 def _spelled(number: Fraction) -> str:
     return str(number).replace("-", "−")
+
+
+def needed(value: T | None) -> T:
+    """What a problem has whose form asks for it, though others do without."""
+    assert value is not None
+    return value
 
 
 def shown(value: Weight | int) -> str:

@@ -11,7 +11,7 @@ from pydantic import AfterValidator, Discriminator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Open, Scalar, StepSize, shown
+from rldrill.problems.exact import Discount, Exact, Open, Scalar, StepSize, needed, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.models import Name, Named, Names, Steps, check_ends, check_keys
@@ -566,7 +566,7 @@ def sought_parts(given: ValueRun) -> tuple[Part, ...]:
     """What is asked where a value after the updates is known: the letter left open, and the other values."""
     first, *others = given.updated
     letter = letter_asked(given)
-    told = f'After all updates $V("{first}") = {shown(given.known or 0)}$.'
+    told = f'After all updates $V("{first}") = {shown(needed(given.known))}$.'
     parts = (replace(letter, ask=f"{told} {letter.ask}"),)
     if not others:
         return parts

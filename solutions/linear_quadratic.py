@@ -66,7 +66,7 @@ def number(value: Any) -> Value:
     return value[0, 0] if matrices.is_matrix(value) else ZERO + value
 
 
-def cost_to_go(solve: Callable[[Any, Work], None], values: slice) -> Misconception:
+def cost_to_go(solve: Callable[[Any, Work], None], values: Callable[[Any], slice]) -> Misconception:
     """The mistake of giving the matrix of the cost-to-go, made in those answers of a solver that are a value's."""
 
     @slip(
@@ -76,7 +76,8 @@ def cost_to_go(solve: Callable[[Any, Work], None], values: slice) -> Misconcepti
     )
     def in_costs(given: Any, work: Work) -> None:
         answers = right_answers(solve, given, work)
-        answers[values] = [-P for P in answers[values]]
+        which = values(given)
+        answers[which] = [-P for P in answers[which]]
         for answer in answers:
             work.answer(answer)
 

@@ -7,6 +7,7 @@ from sympy import Expr
 
 from rldrill.problems.angles import Angle
 from rldrill.problems.document import joined
+from rldrill.problems.exact import needed
 from rldrill.problems.expressions import letters
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.robots import Entries, System
@@ -85,13 +86,13 @@ def chosen(entries: Entries | None, A: Array, B: Array) -> list[Any]:
 
 def hold(given: System, A: AnyMatrix) -> ZeroOrderHold:
     """The zero-order hold of a system with this matrix of its rates."""
-    return ZeroOrderHold(A, exact(given.step or 0))
+    return ZeroOrderHold(A, exact(needed(given.step)))
 
 
 def moved_point(given: System, work: Work, state: AnyMatrix, rates: AnyMatrix) -> AnyMatrix:
     """Where the operating point goes in one step."""
     if not given.held:
-        moved: AnyMatrix = work.step(EULER_F, sbar=state, dt=exact(given.step or 0), fbar=rates)
+        moved: AnyMatrix = work.step(EULER_F, sbar=state, dt=exact(needed(given.step)), fbar=rates)
         return moved
     undiscretised = given.model_copy(update={"step": None, "discretisation": "euler"})
     return hold(given, next(linearised(undiscretised, Work()))).point(work, state, rates)
@@ -279,7 +280,7 @@ def held_numerically(given: System) -> tuple[Array, Array, Array]:
     larger = np.zeros((n + B.shape[1] + 1,) * 2)
     larger[:n] = np.hstack([A, B, f])
     # Squaring a step that is 2²⁰ times shorter, for which three terms of the series are enough.
-    short = larger * float(given.step or 0) / 2**20
+    short = larger * float(needed(given.step)) / 2**20
     power = short + short @ short / 2 + short @ short @ short / 6
     for _ in range(20):
         power = 2 * power + power @ power

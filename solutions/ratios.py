@@ -3,19 +3,19 @@
 import math
 from collections.abc import Mapping
 
-from rldrill.problems.exact import Weight
+from rldrill.problems.exact import Weight, needed
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.oracle import at
 
 
 def new_chance(sample: Sample) -> float:
     """How likely the new policy makes the action."""
-    return at(sample.new or 0) if sample.preferences is None else _softmax(sample.preferences, sample.action)
+    return at(needed(sample.new)) if sample.preferences is None else _softmax(sample.preferences, sample.action)
 
 
 def old_chance(sample: Sample) -> float:
     """How likely the old policy made the action."""
-    return at(sample.old or 0) if sample.old_preferences is None else _softmax(sample.old_preferences, sample.action)
+    return at(needed(sample.old)) if sample.old_preferences is None else _softmax(sample.old_preferences, sample.action)
 
 
 def _softmax(preferences: Mapping[str, Weight], action: str) -> float:
@@ -25,7 +25,7 @@ def _softmax(preferences: Mapping[str, Weight], action: str) -> float:
 
 def outside(sample: Sample, given: Given) -> int:
     """On which side of the clipping range the ratio lies: −1 below, 1 above, 0 inside or at its edge."""
-    ratio, epsilon = new_chance(sample) / old_chance(sample), at(given.epsilon or 0)
+    ratio, epsilon = new_chance(sample) / old_chance(sample), at(needed(given.epsilon))
     margin = 1e-9
     return (ratio > 1 + epsilon + margin) - (ratio < 1 - epsilon - margin)
 

@@ -3,14 +3,14 @@
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
-from rldrill.problems.exact import Parameter, Scalar, shown
+from rldrill.problems.exact import Parameter, Scalar, needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
 from rldrill.solutions.exact import NoSolution, Value, exact, parameters, to_sympy, value_at
-from rldrill.solutions.found import found_line
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
+from rldrill.solutions.found import found_line
 from rldrill.solutions.oracle import at
 from rldrill.solutions.work import Work
 
@@ -29,14 +29,14 @@ def find(given: Reversible, work: Work, value: Value) -> Value:
     """
     if not given.letters:
         raise NoSolution("what is known says nothing of the letter that is asked for; change what is left open")
-    return work.answer(work.equate(given.letter, value, exact(given.known or 0)))
+    return work.answer(work.equate(given.letter, value, exact(needed(given.known))))
 
 
 def tried(given: Given, outcome: Callable[[Given], float]) -> float:
     """The number for the letter, where a straight line through the outcomes of two trials reaches what is known."""
     low, high = (outcome(with_letter(given, trial)) for trial in _TRIALS)
     first, second = map(float, _TRIALS)
-    return first + (second - first) * (at(given.known or 0) - low) / (high - low)
+    return first + (second - first) * (at(needed(given.known)) - low) / (high - low)
 
 
 def reading(letter: Value) -> Callable[[Scalar], Value]:

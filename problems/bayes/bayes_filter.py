@@ -38,7 +38,7 @@ from rldrill.problems.scenes import SCENES, draw_motion, draw_sensor
 
 TITLE = "Bayes filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 6
+REVISION = 7
 
 
 class Event(Givens):

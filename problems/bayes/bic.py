@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, needed, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
@@ -180,7 +180,7 @@ def _cost(given: Given, name: str) -> float:
     """The criterion of a model, to see which is the smallest."""
     if given.fitted is not None:
         model = given.fitted[name]
-        log = float(model.log_likelihood or 0) if model.likelihood is None else math.log(model.likelihood)
+        log = float(needed(model.log_likelihood)) if model.likelihood is None else math.log(model.likelihood)
         return model.k * _price(given, given.n) - 2 * log
     assert given.data is not None
     tosses = list(given.data.tosses.values())

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, shown
+from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, needed, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import ActionPreferences
 from rldrill.problems.fractions import Fraction
@@ -205,7 +205,7 @@ def _terms(given: Given) -> str:
     if given.epsilon is None:
         return (
             f"{ratio} The unclipped term is $u_t = ρ_t A_t$. {objective} The clipping range $ε$ was not noted, but "
-            f"with it the objective is $L = {shown(given.objective or 0)}$."
+            f"with it the objective is $L = {shown(needed(given.objective))}$."
         )
     return (
         f"{ratio} The unclipped term is $u_t = ρ_t A_t$; in the clipped term $c_t$ the ratio is first clipped to the "

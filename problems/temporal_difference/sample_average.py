@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Open, Parameter, StepSize, shown
+from rldrill.problems.exact import Exact, Open, Parameter, StepSize, needed, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, Named, check_keys, values_table
@@ -147,7 +147,7 @@ def question(given: Given) -> Question:
 
 def _told(given: Given) -> Paragraph:
     letter = "The return $x$ is not known. " if given.letter == "x" else ""
-    return Paragraph(f'{letter}In the end $V("{given.visited[0]}") = {shown(given.known or 0)}$.')
+    return Paragraph(f'{letter}In the end $V("{given.visited[0]}") = {shown(needed(given.known))}$.')
 
 
 def _values_asked(given: Given) -> str:

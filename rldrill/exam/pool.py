@@ -78,16 +78,16 @@ class Place:
     Args:
         family: the name of the family.
         level: the level.
+        tolerance: by so many minutes a problem may take more or less.
         parts: how many parts a problem has, as often as that is set.
         time: the minutes that are wanted; None for those of the first problem that is drawn.
-        tolerance: by so many minutes a problem may take more or less.
     """
 
     family: str
     level: int
+    tolerance: Fraction
     parts: tuple[int, ...] = ()
     time: Fraction | None = None
-    tolerance: Fraction = Fraction(0)
 
 
 def problems(place: Place, count: int, draws: Draws, used: set[str], most: int = MAX_DRAWN) -> list[Candidate]:

@@ -32,7 +32,7 @@ class Files:
     output: Path
     codes: tuple[str, ...]
     layout: Layout
-    personal: bool = False
+    personal: bool
     only_keys: bool = False
 
     @property

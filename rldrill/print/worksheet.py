@@ -19,10 +19,9 @@ from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import minutes_of
 
 #: The least room for a minute of working, in centimetres; pages give more where they have it. A part that is only
-#: ticked has a minute and a half without any, and what takes long has room for eight minutes.
-SPACES = {"none": Fraction(0), "tight": Fraction(3, 10), "normal": Fraction(4, 10), "wide": Fraction(1)}
+#: ticked has none, and what takes long has room for eight minutes.
+SPACES = {"tight": Fraction(3, 10), "normal": Fraction(4, 10), "wide": Fraction(1)}
 _LEAST, _LONGEST = Fraction(8, 10), 8
-_TICKED = Fraction(3, 2)
 _PER_LINE = 14
 #: So many options stand side by side at most, where a line has room for so many signs, with so many between them.
 _OPTIONS, _LINE, _BETWEEN = 4, 108, 8
@@ -80,11 +79,10 @@ def _part(exam: Exam, exercise: Exercise, part: Part) -> str:
 
 def space_of(exercise: Exercise, part: Part, space: str) -> Fraction:
     """The room for working in a part, in centimetres: it follows the minutes that the part takes."""
-    ticked = isinstance(part.kind, parts.Choice | parts.YesNo)
-    time = minutes_of(exercise.solution, part.label) - (_TICKED if ticked else 0)
-    room = max(Fraction(0), time) * SPACES[space]
-    least = 0 if ticked or space == "none" else _LEAST
-    return min(max(room, Fraction(least)), max(Fraction(least), _LONGEST * SPACES[space]))
+    if isinstance(part.kind, parts.Choice | parts.YesNo) or space == "none":
+        return Fraction(0)
+    room = minutes_of(exercise.solution, part.label) * SPACES[space]
+    return min(max(room, _LEAST), _LONGEST * SPACES[space])
 
 
 def options(part: Part) -> str:

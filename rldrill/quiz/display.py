@@ -74,7 +74,7 @@ class Display:
 
     def signed(self, sign: tuple[str, str], content: RenderableType) -> None:
         """Print a sign or word, with its style, and what it is about, whose further lines stand under the first."""
-        grid = Table.grid(padding=(0, 1, 0, 0))
+        grid = Table.grid(padding=(0, 1))
         grid.add_column(no_wrap=True)
         grid.add_column(overflow="fold")
         grid.add_row(words(sign), content)

@@ -31,7 +31,7 @@ def ending(session: Session, seconds: float, due: int | None = None) -> Iterator
     made = mistakes(session).most_common(_FEW)
     for mistake, times in made:
         yield (words((f"  ✗ {'' if times == 1 else f'{times} times: '}", "red"), mistake.says))
-    commands = Table.grid(padding=(0, 2, 0, 0))
+    commands = Table.grid(padding=(0, 2))
     commands.add_column(no_wrap=True)
     commands.add_column(overflow="fold")
     if (weak := weakest(session)) is not None:

@@ -145,7 +145,7 @@ class _Beside:
             stacked_items = [line for item in fitting for line in (item, Text(""))]
             yield Group(*stacked_items[:-1])
             return
-        grid = RichTable.grid(padding=(0, _BETWEEN, 0, 0))
+        grid = RichTable.grid(padding=(0, _BETWEEN))
         for width in widths:
             grid.add_column(no_wrap=True, width=width)
         grid.add_row(*items)
@@ -248,7 +248,7 @@ def _equation(equation: Equation, spelling: Spelling, width: int) -> RenderableT
     signs = [spelling.plain(sign) for sign in equation.signs]
     named = _is_named(equation)
     room = width - (_wide(left.split("\n")) + _wide(signs) + 2 if named else 0)
-    grid = RichTable.grid(padding=(0, 1, 0, 0))
+    grid = RichTable.grid(padding=(0, 1))
     if named:
         grid.add_column(no_wrap=True)
         grid.add_column(no_wrap=True)
@@ -291,7 +291,7 @@ def compared(wrong: Equation, right: Equation) -> RenderableType:
 
 def _compared(wrong: Equation, right: Equation, spelling: Spelling) -> RenderableType:
     lines = differences(*("".join(_one_line(equation, spelling)) for equation in (wrong, right)))
-    grid = RichTable.grid(padding=(0, 1, 0, 0))
+    grid = RichTable.grid(padding=(0, 1))
     grid.add_column(no_wrap=True)
     grid.add_column(overflow="fold")
     for who, pieces in zip(("yours:", "right:"), lines, strict=True):

@@ -16,7 +16,6 @@ from rldrill.problems.mathematics import (
     row,
     word,
 )
-from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
@@ -56,9 +55,9 @@ class Allowed:
         longest: the most characters that are read.
     """
 
-    parameters: Sequence[str] = ()
-    ends: Sequence[str] = ()
-    longest: int = LONGEST
+    parameters: Sequence[str]
+    ends: Sequence[str]
+    longest: int
 
 
 class Answer(ABC, Generic[KindT]):

@@ -9,7 +9,7 @@ import sympy
 
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import Equation, joined
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import needed, shown
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, sign, simplest, tidy, to_sympy, told
 from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
@@ -85,7 +85,7 @@ def _logarithm(given: Given, name: str, work: Work) -> Value:
     assert given.fitted is not None
     model = given.fitted[name]
     if model.likelihood is None:
-        return exact(model.log_likelihood or 0)
+        return exact(needed(model.log_likelihood))
     value = tidy(sympy.log(to_sympy(exact(model.likelihood))))
     factor, logarithm = to_sympy(value).as_coeff_Mul()
     if factor < 0 and isinstance(logarithm, sympy.log):
@@ -226,7 +226,7 @@ def oracle(given: Given) -> Answers:
     if given.fitted is not None:
         fit = np.array(
             [
-                np.log(at(model.likelihood)) if model.likelihood is not None else at(model.log_likelihood or 0)
+                np.log(at(model.likelihood)) if model.likelihood is not None else at(needed(model.log_likelihood))
                 for model in given.fitted.values()
             ]
         )

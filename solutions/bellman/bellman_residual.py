@@ -77,7 +77,8 @@ def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
     known = knowns.model(mdp) | {"gamma": gamma, "V": V}
     others = [state for state in mdp.states if state != row.state]
     residuals = {state: work.step(BELLMAN_OPTIMALITY_RESIDUAL, s=state, **known) for state in others}
-    work.say(f"Whatever ${letter}$ is, the equation holds in {joined(others)}. In {row.state} the actions are worth:")
+    holds = f"Whatever ${letter}$ is, the equation holds in {joined(others)}. " if others else ""
+    work.say(f"{holds}In {row.state} the actions are worth:")
     worths = {a: work.step(Q_STAR_FROM_V, s=row.state, a=a, **known) for a in mdp.actions[row.state]}
     less = [action for action in worths if action != row.action]
     of_state = f'$V("{row.state}")$'

@@ -3,7 +3,7 @@
 from typing import Any
 
 from rldrill.problems.beyond_the_sheet.maml_step import Given
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import needed, shown
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -82,7 +82,7 @@ def oracle(given: Given) -> Answers:
         return (adapted(1) - adapted(0), -slope(0) / (slope(1) - slope(0)))
     theta = at(given.theta)
     if given.beta is None:
-        return (adapted(theta), (theta - at(given.after or 0)) / slope(theta))
+        return (adapted(theta), (theta - at(needed(given.after))) / slope(theta))
     beta = at(given.beta)
     first_order = theta - beta * float(np.sum(curves * (adapted(theta) - optima)))
     return (adapted(theta), theta - beta * slope(theta), *([first_order] if given.first_order else []))

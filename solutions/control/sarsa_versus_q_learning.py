@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.control.sarsa_versus_q_learning import METHODS, Given, first_that_reads_again, method
 from rldrill.problems.document import joined
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, told
@@ -158,8 +158,8 @@ def _step_size(given: Given, work: Work, formula: Formula) -> Value:
     """The step size, from the first target that reads a value that it has moved."""
     time = first_that_reads_again(given.trajectory) or 0
     *_, (_, target) = _along(given, work, formula, steps=time + 1)
-    work.say(f"$y_{{{time}}}$ is known to be ${shown(given.known or 0)}$:")
-    alpha: Value = work.answer(work.equate("alpha", target, exact(given.known or 0)))
+    work.say(f"$y_{{{time}}}$ is known to be ${shown(needed(given.known))}$:")
+    alpha: Value = work.answer(work.equate("alpha", target, exact(needed(given.known))))
     return alpha
 
 

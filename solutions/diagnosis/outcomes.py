@@ -347,7 +347,7 @@ class _Line:
     ) -> "_Line | None":
         """The line through the answers for a few values; None where there is none."""
         own = numbers(application.value)
-        if own is None or not answered or any(other is None for other, _ in answered):
+        if own is None or not answered or answered[0][0] is None:
             return None
         start = list(map(approximate, own))
         heights = [[_size(cells[name]) for name in names] for _, cells in answered]

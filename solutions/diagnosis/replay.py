@@ -39,8 +39,8 @@ class Application:
     step: Step
     value: Any
     known: Mapping[str, Any]
-    equation: bool = False
-    first: Mapping[Any, Any] | None = None
+    equation: bool
+    first: Mapping[Any, Any] | None
 
     @property
     def formula(self) -> Formula:
@@ -242,7 +242,7 @@ def replayed(
     change: Change,
     carried: Mapping[str, Any],
     right: Sequence[Application],
-    trace: list[Traced] | None = None,
+    trace: list[Traced] | None,
 ) -> Mapping[str, Any] | None:
     """The answers of a working that is changed, where it was ``right``; None where it leads to none.
 

@@ -1,6 +1,5 @@
 """One look ahead with every action, from the optimal values."""
 
-from dataclasses import replace
 from typing import Any
 
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
@@ -26,8 +25,8 @@ MISCONCEPTIONS = (
     GREEDY_BY_VALUE,
     GREEDY_BY_REWARD,
     SMALLEST_Q,
-    replace(Q_FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.missing is None),
-    replace(OWN_VALUE, when=lambda given: given.missing is None),
+    Q_FORGOT_GAMMA,
+    OWN_VALUE,
 )
 
 

@@ -56,7 +56,7 @@ class Edit:
     kind: str
     right: Expr
     part: Expr
-    instead: Expr | None = None
+    instead: Expr | None
     within: tuple[Over, ...] = ()
     once: Expr | None = None
 

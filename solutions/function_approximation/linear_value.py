@@ -123,7 +123,7 @@ def wrong_block(given: Given, work: Work) -> None:
 @slip(
     "weights-interleaved",
     "The first block holds all weights of the first action; the weights were read feature by feature instead.",
-    when=lambda given: given.size > 1 and given.raised is None and not given.between,
+    when=lambda given: given.size > 1 and given.raised is None,
 )
 def interleaved(given: Given, work: Work) -> None:
     """For the first feature a weight of every action, then for the second, and so on."""

@@ -52,17 +52,17 @@ def oracle(given: Given) -> Answers:
     """The bump as a line between its peak and its foot."""
     known = {number: at(value) for number, value in given.known.items()}
     answers: list[object] = []
-    width = at(given.width or 0)
-    if given.position is None:
-        state = nearest(given, {number: width * (1 - value) for number, value in known.items()})
-        answers.append(state)
-        far = measured(given, (state,))
+    state: list[float] = []
+    if given.width is None:
+        ((number, value),) = known.items()
+        width = measured(given)[number - 1] / (1 - value)
+        answers.append(width)
     else:
-        far = measured(given)
-        if given.width is None:
-            ((number, value),) = known.items()
-            width = far[number - 1] / (1 - value)
-            answers.append(width)
+        width = at(given.width)
+    if given.position is None:
+        state = [nearest(given, {number: width * (1 - value) for number, value in known.items()})]
+    far = measured(given, state)
+    answers += state
     features = np.interp(far, [0.0, width], [1.0, 0.0])
     if others := [*np.delete(features, [number - 1 for number in known])]:
         answers.append(others)

@@ -74,17 +74,17 @@ def oracle(given: Given) -> Answers:
     """A normal density, relative to its height at the centre."""
     answers: list[object] = []
     known = {number: at(value) for number, value in given.logarithms.items()}
-    sigma = 0.0 if given.sigma is None else at(given.sigma)
-    if given.position is None:
-        state = nearest(given, {number: sigma * np.sqrt(2 * -value) for number, value in known.items()})
-        answers.append(state)
-        far = measured(given, (state,))
-    else:
-        far = measured(given)
+    state: list[float] = []
     if given.sigma is None:
         ((number, value),) = known.items()
-        sigma = float(far[number - 1] / np.sqrt(-2 * value))
+        sigma = float(measured(given)[number - 1] / np.sqrt(-2 * value))
         answers.append(sigma)
+    else:
+        sigma = at(given.sigma)
+    if given.position is None:
+        state = [nearest(given, {number: sigma * np.sqrt(2 * -value) for number, value in known.items()})]
+    far = measured(given, state)
+    answers += state
 
     def density(x: float) -> float:
         return float(np.exp(-((x / sigma) ** 2) / 2) / (sigma * np.sqrt(2 * np.pi)))

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from rldrill.problems.exact import Scalar
+from rldrill.problems.exact import Scalar, needed
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.return_infinite import Given
 from rldrill.solutions.exact import Value, exact
@@ -91,6 +91,6 @@ def _found(given: Given) -> float:
     rising = oracle(with_letter(given, Fraction(1, 2)))[-1] < oracle(with_letter(given, Fraction(3, 4)))[-1]
     for _ in range(50):
         middle = (low + high) / 2
-        below = oracle(with_letter(given, Fraction(middle)))[-1] < at(given.known or 0)
+        below = oracle(with_letter(given, Fraction(middle)))[-1] < at(needed(given.known))
         low, high = (middle, high) if below == rising else (low, middle)
     return low

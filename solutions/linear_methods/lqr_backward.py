@@ -81,19 +81,20 @@ def same_time(given: Given, work: Work) -> None:
     """The right value matrices, and every gain from that of its own time."""
     lqr, known = _formulas(given), linear_quadratic.known(given)
     L: dict[int, Any] = {}
-    for time, P in zip(given.asked, right_answers(solve, given, work)[VALUES], strict=True):
+    for time, P in zip(given.asked, right_answers(solve, given, work)[_values(given)], strict=True):
         L = {time: work.answer(_gain(lqr, work, time, Pt={time + 1: P}, **known))}
         work.answer(P)
     work.answer(work.step(lqr.action, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
 
 
-#: Which answers are value matrices: every second one.
-VALUES = slice(1, None, 2)
+def _values(given: Given) -> slice:
+    """Which answers are value matrices: every second one, behind the price if that is asked for."""
+    return slice(1 if _forwards(given) else 2, None, 2)
+
+
 #: As for a single gain, but here matrices are given by time.
 TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
-COST_TO_GO = replace(
-    linear_quadratic.cost_to_go(solve, VALUES), when=lambda given: given.convention == "value" and _forwards(given)
-)
+COST_TO_GO = linear_quadratic.cost_to_go(solve, _values)
 #: Where the price is to be found: without it, or without a value at the end, the gain says nothing of it.
 OF_GIVEN_PRICES = tuple(
     replace(mistake, when=_forwards) for mistake in (FORGOT_R, FORGOT_R_IN_COSTS, NO_TERMINAL, NO_TERMINAL_COST)

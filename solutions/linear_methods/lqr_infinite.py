@@ -1,7 +1,6 @@
 """The scalar Riccati equation by its quadratic; a larger system by its modes, if it has any, else in decimals."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import sympy
@@ -9,6 +8,7 @@ from flint import fmpq
 from sympy import Expr
 
 from rldrill.problems.document import joined
+from rldrill.problems.exact import needed
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
@@ -96,7 +96,7 @@ def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator)
     L, P = given.notation.gain, given.notation.value
     system = {f"{name}i": getattr(regulator, name) for name in "ABQR"} | {"gamma": regulator.gamma}
     loop = work.step(formulas.closed_loop, **system, **{f"{L}i": _single(generator(L))})
-    gain = work.equate(L, loop[0, 0], exact(given.closed_loop or 0))
+    gain = work.equate(L, loop[0, 0], exact(needed(given.closed_loop)))
 
     def riccati(value: Value) -> Value:
         found = work.step(formulas.equation, **system, **{f"{L}i": _single(gain), f"{P}i": _single(value)})
@@ -399,10 +399,7 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
 MISCONCEPTIONS = (
     OTHER_ROOT,
     POSITIVE_S,
-    replace(
-        linear_quadratic.cost_to_go(solve, slice(1)),
-        when=lambda given: given.convention == "value" and given.closed_loop is None,
-    ),
+    linear_quadratic.cost_to_go(solve, lambda given: slice(1) if given.closed_loop is None else slice(1, None)),
 )
 
 
@@ -432,6 +429,6 @@ def _priced(given: Given) -> Answers:
         entry = Fraction(middle)
         priced = given.model_copy(update={given.unknown: ((entry,),), "closed_loop": None})
         S, _, loop = oracle(priced)
-        wide = abs(loop[0, 0]) > abs(at(given.closed_loop or 0))
+        wide = abs(loop[0, 0]) > abs(at(needed(given.closed_loop)))
         prices[int(wide == (given.unknown == "R"))] = middle
     return (S[0, 0], middle)

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from rldrill.problems.exact import Weight, shown
+from rldrill.problems.exact import Weight, needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.ppo_clip import CUT, Given, Sample
 from rldrill.solutions.exact import ZERO, NoSolution, Value, absolute, exact, largest, sign, simplest, told
@@ -197,7 +197,7 @@ def _given(work: Work, values: Sequence[Value]) -> dict[int, Value]:
 def _chance(work: Work, sample: Sample, chance: Fraction | None, preferences: Mapping[str, Weight] | None) -> Value:
     """How likely a policy makes the action: given, or by its preferences."""
     if preferences is None:
-        return exact(chance or 0)
+        return exact(needed(chance))
     by_pair = {(sample.state, action): exact(value) for action, value in preferences.items()}
     return simplest(work.step(SOFTMAX_POLICY, s=sample.state, a=sample.action, H=by_pair, choices=tuple(preferences)))
 

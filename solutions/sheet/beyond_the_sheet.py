@@ -261,22 +261,19 @@ with evaluate(False):
 def rotations() -> tuple[Formula, Formula]:
     """The rotation in a link's transform, and the product of those of several links."""
     with evaluate(False):
-        turned = Blocks(
-            3,
-            cos(th(i)), -sin(th(i)) * cos(al(i)), sin(th(i)) * sin(al(i)),
-            sin(th(i)), cos(th(i)) * cos(al(i)), -cos(th(i)) * sin(al(i)),
-            0, sin(al(i)), cos(al(i)),
-        )  # fmt: skip
-        as_craigs = Blocks(
-            3,
-            cos(th(i)), -sin(th(i)), 0,
-            sin(th(i)) * cos(al(i)), cos(th(i)) * cos(al(i)), -sin(al(i)),
-            sin(th(i)) * sin(al(i)), cos(th(i)) * sin(al(i)), cos(al(i)),
-        )  # fmt: skip
+        right, as_craigs = (
+            Blocks(3, *_corner(each)) for each in (LINK_TRANSFORM.right, LINK_TRANSFORM.misread[CRAIGS])
+        )
         return (
-            replace(LINK_TRANSFORM, left=rotation(i), right=turned, misread={CRAIGS: as_craigs}),
+            replace(LINK_TRANSFORM, left=rotation(i), right=right, misread={CRAIGS: as_craigs}),
             replace(CHAIN, left=R_total, right=R_total * rotation(i), misread={WRONG_ORDER: rotation(i) * R_total}),
         )
+
+
+def _corner(transform: Expr) -> tuple[Expr, ...]:
+    """The entries of the first three rows and columns of a transform."""
+    _, *entries = transform.args
+    return (*entries[:3], *entries[4:7], *entries[8:11])
 
 
 # Meta-learning ---------------------------------------------------------------------------------------

@@ -95,17 +95,16 @@ with evaluate(False):
     HALF_FORGOTTEN = Misconception(
         "half-forgotten",
         "The squared distance is divided by 2σ², not by σ².",
-        when=lambda given: given.position is not None and given.sigma is not None,
     )
     SIGMA_NOT_SQUARED = Misconception(
         "sigma-not-squared",
         "The squared distance is divided by 2σ²: the width σ is squared, too.",
-        when=lambda given: given.sigma not in (1, None),
+        when=lambda given: given.sigma != 1,
     )
     NORM_NOT_SQUARED = Misconception(
         "norm-not-squared",
         "It is the square of the distance that stands in the exponent.",
-        when=lambda given: given.sigma is not None and not _distances(given) <= {0, 1},
+        when=lambda given: given.position is None or not _distances(given) <= {0, 1},
     )
     RBF = Formula(
         "rbf",
@@ -139,6 +138,11 @@ with evaluate(False):
         source="The radial basis function, solved for σ",
         hint="Take the logarithm of both sides, and solve for σ.",
         place=Place.WORKING,
+        misread={
+            HALF_FORGOTTEN: distance(i) / (-log_phi(i, s)) ** Rational(1, 2),
+            SIGMA_NOT_SQUARED: distance(i) ** 2 / (-2 * log_phi(i, s)),
+            NORM_NOT_SQUARED: (distance(i) / (-2 * log_phi(i, s))) ** Rational(1, 2),
+        },
     )
     NOT_CLAMPED = Misconception(
         "not-clamped-at-0",

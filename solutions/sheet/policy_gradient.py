@@ -231,7 +231,7 @@ with evaluate(False):
     WITHOUT_EXP = Misconception(
         "normalised-without-exp",
         "The preferences are exponentiated before they are normalised.",
-        when=lambda given: given.odds is None and not given.parameters(),
+        when=lambda given: given.odds is None,
     )
     SOFTMAX_POLICY = Formula(
         "softmax-policy",

@@ -48,12 +48,13 @@ def _averaged(given: Given, work: Work) -> None:
 
 
 def _weighted(given: Given, work: Work) -> None:
+    assert given.alpha is not None
     if given.known is not None and len(given.visits) == 1:
         ((state, observed),) = given.visits
         known = {"s": state, "observed": exact(observed), "V": knowns.values(given.values)}
-        find(given, work, work.step(of_a_visit(MONTE_CARLO), alpha=exact(given.alpha or 0), **known))
+        find(given, work, work.step(of_a_visit(MONTE_CARLO), alpha=exact(given.alpha), **known))
         return
-    count, alpha = len(given.visits), exact(given.alpha or 0)
+    count, alpha = len(given.visits), exact(given.alpha)
     weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
     if given.known is None:
         carried = work.answer(weights[0] if count == 1 else weights)

@@ -347,6 +347,8 @@ def test_entries_of_vectors_may_be_expressions():
         ("[1]", 2, "1 number was read, 2 are needed."),
         ("3,5", 1, "2 numbers were read, 1 is needed. Decimals are written with a point"),
         ("1,5; 2,5", 2, "1,5 has a decimal comma; write 1.5."),
+        ("-1 -0,5", 2, "0,5 has a decimal comma; write 0.5."),
+        ("x = -1 -0,5", 2, "0,5 has a decimal comma; write 0.5."),
         ("1, 2; 3", 3, "Commas and semicolons are mixed"),
         ("1, foo", 2, "entry 2: 'foo' is not"),
         ("1,,2", 3, "entry 2: Nothing was typed."),
@@ -867,3 +869,9 @@ def test_a_colon_elsewhere_is_not_understood(text):
 
 def test_two_forms_of_different_shapes_are_not_equal():
     assert "are not equal" in refusal(read_matrix, "1,=1,1").message
+
+
+def test_a_number_stands_in_the_brackets_of_a_list_or_of_a_matrix_and_in_no_more() -> None:
+    assert [read_number(text).value for text in ("7/4", "[7/4]", "[[7/4]]")] == [fmpq(7, 4)] * 3
+    with pytest.raises(Unreadable, match="use round brackets"):
+        read_number("[[[7/4]]]")

@@ -6,6 +6,7 @@ from flint import fmpq
 import rldrill
 from rldrill.solutions.answers.judging import Outcome
 from rldrill.solutions.answers.text import read_number
+from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import may_mean
 from rldrill.solutions.sheet.bellman import Q_REWARD_UNWEIGHTED
 from rldrill.solutions.sheet.control import SHARED_AMONG_OTHERS
@@ -209,3 +210,15 @@ def test_close_hides_no_wrong_idea() -> None:
     assert verdict.outcome is not Outcome.CLOSE
     assert "the old value 100 is kept in the update" in verdict.says
     assert exercise.check("a: 100.7").outcome is Outcome.CLOSE
+
+
+@pytest.mark.parametrize(("states", "others"), [(3, 9 + 2), (4, 1)])
+def test_a_value_of_nine_numbers_is_taken_apart_and_a_larger_one_is_not(states: int, others: int) -> None:
+    # Each number one more, and two values more that check whether all of it is a straight line.
+    identity = [[int(i == j) for j in range(states)] for i in range(states)]
+    system = {"A": identity, "B": [[1]] * states, "Q": identity, "R": 1, "start": [1] * states, "horizon": 1}
+    search = Search(rldrill.read({"family": "lqr-backward", "given": system}).solution)
+    (large,) = (each for each in search.applications if each.formula.key == "lqr-riccati")
+    responses = search.responses(large)
+    assert len(responses) == others
+    assert (responses[0][0] is None) is (states > 3)

@@ -1,9 +1,12 @@
 """One thing of what is given read wrongly, on a run that is small enough to list by hand."""
 
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
+
+from pydantic import BaseModel, ConfigDict, Field
 
 import rldrill
+from rldrill.problems.exact import Exact
 from rldrill.solutions.diagnosis.givens import misread
 
 # V(cave) = 8, V(floor) = 10, V(rim) = 6, rewards 7, −3 and 5, α = 1/4, γ = 1/2.
@@ -42,3 +45,98 @@ def test_rows_and_rates_are_exchanged() -> None:
 
 def test_a_minus_is_lost() -> None:
     assert [given.trajectory.rewards for given in read_as("minus-lost")] == [(7, 3, 5)]
+
+
+class Row(NamedTuple):
+    name: str
+    share: Exact
+    pay: Exact
+
+
+class Exactly(BaseModel):
+    model_config = ConfigDict(arbitrary_types_allowed=True)
+
+
+class Inner(BaseModel):
+    count: int
+
+
+class Small(Exactly):
+    steps: int = Field(ge=1)
+    share: Exact
+    drift: Exact
+    flag: bool
+    table: dict[str, Exact]
+    rewards: tuple[Exact, ...]
+    rows: tuple[Row, ...]
+    matrix: tuple[tuple[Exact, ...], ...]
+    inner: dict[str, Inner]
+
+
+SMALL = {
+    "steps": 1, "share": "1/4", "drift": -2, "flag": True, "table": {"a": 3, "b": -1}, "rewards": (5, -4, -4),
+    "rows": (("x", "1/2", -3), ("y", 1, 2)), "matrix": ((1, 2), (3, -4)), "inner": {"u": {"count": 7}},
+}  # fmt: skip
+
+#: Everything that can be read wrongly there: neither 0 steps, nor −2 or a quarter of one, make a problem.
+READ_WRONGLY = [
+    ("givens-exchanged", "share and drift", {"share": -2, "drift": "1/4"}),
+    ("one-too-many", "steps", {"steps": 2}),
+    ("complement", "share", {"share": "3/4"}),
+    ("minus-lost", "drift", {"drift": 2}),
+    ("minus-lost", "table b", {"table": {"a": 3, "b": 1}}),
+    ("rows-exchanged", "table of a and b", {"table": {"a": -1, "b": 3}}),
+    ("reversed", "rewards", {"rewards": (-4, -4, 5)}),
+    ("entry-left-out", "first of the rewards", {"rewards": (-4, -4)}),
+    ("entries-exchanged", "rewards, first and second", {"rewards": (-4, 5, -4)}),
+    ("entry-left-out", "second of the rewards", {"rewards": (5, -4)}),
+    ("minus-lost", "the second of the rewards", {"rewards": (5, 4, -4)}),
+    ("entry-left-out", "third of the rewards", {"rewards": (5, -4)}),
+    ("minus-lost", "the third of the rewards", {"rewards": (5, -4, 4)}),
+    ("reversed", "rows", {"rows": (("y", 1, 2), ("x", "1/2", -3))}),
+    ("entry-left-out", "first of the rows", {"rows": (("y", 1, 2),)}),
+    ("entries-exchanged", "rows, first and second", {"rows": (("y", 1, 2), ("x", "1/2", -3))}),
+    ("minus-lost", "the first row of rows", {"rows": (("x", "1/2", 3), ("y", 1, 2))}),
+    ("givens-exchanged", "first row of rows", {"rows": (("x", -3, "1/2"), ("y", 1, 2))}),
+    ("entry-left-out", "second of the rows", {"rows": (("x", "1/2", -3),)}),
+    ("givens-exchanged", "second row of rows", {"rows": (("x", "1/2", -3), ("y", 2, 1))}),
+    ("reversed", "matrix", {"matrix": ((3, -4), (1, 2))}),
+    ("entry-left-out", "first of the matrix", {"matrix": ((3, -4),)}),
+    ("entries-exchanged", "matrix, first and second", {"matrix": ((3, -4), (1, 2))}),
+    ("givens-exchanged", "first row of matrix", {"matrix": ((2, 1), (3, -4))}),
+    ("entry-left-out", "second of the matrix", {"matrix": ((1, 2),)}),
+    ("minus-lost", "the second row of matrix", {"matrix": ((1, 2), (3, 4))}),
+    ("givens-exchanged", "second row of matrix", {"matrix": ((1, 2), (-4, 3))}),
+    ("one-too-many", "count", {"inner": {"u": {"count": 8}}}),
+    ("one-too-few", "count", {"inner": {"u": {"count": 6}}}),
+]
+
+
+def test_everything_is_read_wrongly_once() -> None:
+    found = [(each.kind, each.what, each.given) for each in misread(Small(**SMALL))]
+    assert found == [(kind, what, Small(**{**SMALL, **other})) for kind, what, other in READ_WRONGLY]
+
+
+def test_equal_numbers_are_not_exchanged_and_a_share_is_between_0_and_1() -> None:
+    other = {"share": 1, "drift": 1, "table": {"a": 3, "b": 3}, "rewards": (2,), "rows": (), "matrix": ((1, 1), (0, 0))}
+    assert [(each.kind, each.what) for each in misread(Small(**{**SMALL, **other}))] == [
+        ("one-too-many", "steps"),
+        ("reversed", "matrix"),
+        ("entry-left-out", "first of the matrix"),
+        ("entries-exchanged", "matrix, first and second"),
+        ("entry-left-out", "second of the matrix"),
+        ("one-too-many", "count"),
+        ("one-too-few", "count"),
+    ]
+
+
+class List(BaseModel):
+    numbers: tuple[int, ...]
+
+
+def test_of_a_list_of_more_than_24_nothing_is_tried() -> None:
+    left_out = [each.what for each in misread(List(numbers=(0,) * 24)) if each.kind == "entry-left-out"]
+    assert left_out[8:12] == ["ninth of the numbers", "tenth of the numbers", "11th of the numbers",
+                              "12th of the numbers"]  # fmt: skip
+    assert len(left_out) == 24
+    assert not list(misread(List(numbers=(0,) * 25)))

@@ -169,6 +169,11 @@ def test_an_older_version_is_copied_and_brought_up_to_date(tmp_path: Path, monke
         assert old.execute("SELECT id FROM attempt").fetchall() == [("1",)]
 
 
+def test_a_new_log_has_no_older_version_to_copy(tmp_path: Path) -> None:
+    log.append(tmp_path / "history.db", [FIRST])
+    assert not [*tmp_path.glob("*.v*")]
+
+
 def test_a_migration_that_fails_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "history.db"
     log.append(path, [FIRST])

@@ -50,6 +50,13 @@ def test_how_a_problem_is_rated(outcomes: tuple[str, ...], parts: int, rating: R
     assert rated(sitting("one", NOW, *outcomes, parts=parts)) is rating
 
 
+def test_a_problem_is_reviewed_when_its_last_part_is_answered() -> None:
+    first, last = sitting("one", NOW, "right", "right", parts=2)
+    later = replace(last, time=NOW + timedelta(minutes=40))
+    (memory,) = remembered([later, first]).values()
+    assert memory.last == NOW + timedelta(minutes=40)
+
+
 def test_what_went_well_comes_after_days_and_what_went_wrong_on_the_next_day() -> None:
     (well,) = remembered(sitting("one", NOW, "right")).values()
     (badly,) = remembered(sitting("one", NOW, "wrong")).values()

@@ -57,14 +57,19 @@ class Choice:
 
         For what writes pages, the pages of all families come first: most of it shows in none of their names. Where it
         is known which tests run the changed statement, there are no others but those that start other programs, and
-        those come first of all that run rare lines of the same function.
+        those come first of all that run rare lines of the same function. Of what other modules alone use, those come
+        first that run rare lines of these.
         """
         order: Counter[tuple[int, str]] = Counter()
         keyed = []
         running = self.covering.tests(source, mutation) if self.covering else frozenset()
         rare = running & self.covering.rare(source, mutation) if self.covering else frozenset()
+        if self.covering and not running:  # it is used by other modules
+            paths = self._importing({_module(Path(source.path))})
+            importing = (Source.read(self.root, str(path)) for path in paths)
+            rare = self.covering.elsewhere(source, mutation, importing)
         ranks = zip(self._ranks(source, mutation), self.ids, strict=True)
-        for rank, test in [each for each in ranks if each[0] < _NOT or each[1] in running]:
+        for rank, test in [each for each in ranks if each[0] < _NOT or each[1] in running | rare]:
             if running and self._is_far(test, running):
                 continue
             function = test.partition("[")[0]

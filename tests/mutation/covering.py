@@ -1,7 +1,7 @@
 """Which tests run a line, as coverage.py has noted it while the whole suite ran once."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -55,6 +55,18 @@ class Covering:
         noted = (each for first, last in places for at in range(first, last + 1) for each in contexts.get(at, ()))
         return frozenset(context.rpartition("|")[0] for context in noted) - {""}
 
+    def elsewhere(self, source: Source, mutation: Mutation, importing: Iterable[Source]) -> frozenset[str]:
+        """The tests that run a line of another module which mentions what the changed line defines, where few do."""
+        names = _defined(_flat(source.tree.body), source.line(mutation))
+        found: set[str] = set()
+        for other in importing:
+            contexts = self._data.contexts_by_lineno(self._paths.get(other.path, ""))
+            for first, last in _mentioning(other.tree, _imported(other.tree, source.path) & names):
+                noted = (each for at in range(first, last + 1) for each in contexts.get(at, ()))
+                tests = {context.rpartition("|")[0] for context in noted} - {""}
+                found |= tests if len(tests) <= _FEW else set()
+        return frozenset(found)
+
     def rare(self, source: Source, mutation: Mutation) -> frozenset[str]:
         """The tests that run a line of the same function which hardly any other runs: such as what an ``if`` guards."""
         measured = self._paths.get(source.path)
@@ -93,13 +105,38 @@ def _innermost(tree: ast.Module, line: int) -> int:
 
 def _using(tree: ast.Module, line: int) -> Iterator[tuple[int, int]]:
     """The lines on which functions mention what is defined at the top of the module on a line, or what it goes into."""
+    return _mentioning(tree, _defined(tree.body, line))
+
+
+def _defined(statements: Iterable[ast.stmt], line: int) -> set[str]:
+    """What these statements define on a line, or what that goes into."""
     defined: set[str] = set()
-    for node in tree.body:
+    for node in statements:
         at_the_top = isinstance(node, ast.Assign | ast.AnnAssign)
         mentions = {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
         if at_the_top and (node.lineno <= line <= (node.end_lineno or 0) or defined & mentions):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
             defined |= {each.id for target in targets for each in ast.walk(target) if isinstance(each, ast.Name)}
+    return defined
+
+
+def _flat(statements: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
+    for statement in statements:
+        yield from _flat(statement.body) if isinstance(statement, ast.With) else [statement]
+
+
+def _imported(tree: ast.Module, path: str) -> set[str]:
+    """What a module imports of another one, by its path, under its own name."""
+    module = path.removesuffix(".py").replace("/", ".").removeprefix("rldrill.")
+    return {
+        alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").removeprefix("rldrill.") == module
+        for alias in node.names
+    }
+
+
+def _mentioning(tree: ast.Module, names: set[str]) -> Iterator[tuple[int, int]]:
     for each in ast.walk(tree):
-        if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load) and each.id in defined:
+        if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load) and each.id in names:
             yield _innermost(tree, each.lineno), each.lineno

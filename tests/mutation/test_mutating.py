@@ -133,6 +133,26 @@ def test_only_tests_that_run_the_statement_come_into_question_where_they_are_kno
     assert choice.tests(Source.read(tmp_path, "rldrill/tax.py"), constant) == ids[:2]  # who uses it is not known
 
 
+def test_of_what_other_modules_use_those_come_first_that_run_rare_lines_there(tmp_path: Path) -> None:
+    (tmp_path / "rldrill").mkdir()
+    (tmp_path / "rldrill" / "rates.py").write_text("with x:\n    RATE = 3\n    OTHER = 4\n")
+    (tmp_path / "rldrill" / "tax.py").write_text(
+        "from rldrill.rates import OTHER, RATE\ndef tax(x):\n    return x * RATE\ndef fee():\n    return OTHER\n"
+    )
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_rates.py").write_text("def test_it(): ...")
+    (tmp_path / "tests" / "test_far.py").write_text("def test_tax(): ...\ndef test_fee(): ...")
+    ids = ("tests/test_rates.py::test_it", "tests/test_far.py::test_tax", "tests/test_far.py::test_fee")
+    data = CoverageData(str(tmp_path / "noted"))
+    for test, line in ((ids[1], 3), (ids[2], 5)):
+        data.set_context(f"{test}|run")
+        data.add_lines({"/elsewhere/rldrill/tax.py": [line]})
+    data.write()
+    source = Source.read(tmp_path, "rldrill/rates.py")
+    choice = Choice(tmp_path, ids, Covering(tmp_path / "noted"))
+    assert [choice.tests(source, mutation) for mutation in mutations(source)] == [(ids[1], ids[0]), (ids[2], ids[0])]
+
+
 def test_those_come_first_that_run_what_hardly_any_other_runs(tmp_path: Path) -> None:
     (tmp_path / "rldrill").mkdir()
     (tmp_path / "rldrill" / "tax.py").write_text("def tax(x):\n    if x < 3:\n        return 0\n    return x\n")

@@ -182,6 +182,42 @@ EPISODES: dict[str, Any] = {"mdp": VALUED["mdp"], "gamma": "1/2", "start": {"a":
 TABLE: dict[str, Any] = {
     "table": [["k", "h", "h", 16], ["k", "h", "s", 24], ["b", "h", "h", 2], ["b", "h", "s", 3]], "asked": "h",
 }  # fmt: skip
+#: V(a) = 8 is optimal where going round pays 4, for 4 + 1/2·8 = 8, and leaving pays 4.
+RAISED: dict[str, Any] = {
+    "mdp": {"transitions": [["a", "x", "end", 1, 4], ["a", "y", "a", 1, "x"]], "terminal": ["end"]},
+    "values": {"a": 8}, "gamma": "1/2", "reward": 1,
+}  # fmt: skip
+#: y₀ = 2 + 1/2·6 = 5, so Q(a, x) = 4 + α, and y₁ = 3 + 1/2·(4 + α) = 21/4 for α = 1/2.
+READ_AGAIN: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b", "a", "c"], "actions": ["x", "x", "x", "x"], "rewards": [2, 3, 1]},
+    "values": {"a": {"x": 4, "y": 0}, "b": {"x": 6, "y": 0}, "c": {"x": 2, "y": 0}}, "alpha": "alpha", "gamma": "1/2",
+    "known": "21/4",
+}  # fmt: skip
+BLOCKS: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [1]},
+    "features": {"a": [1, 2], "b": [2, 1]}, "theta": [1, 1, 2, 3], "actions": ["x", "y"], "alpha": "1/2", "gamma": 1,
+}  # fmt: skip
+#: Two bells of width 1: the state is 1 from the first centre and 2 from the second, for −1/2·1² and −1/2·2².
+FOUND_BETWEEN: dict[str, Any] = {"centres": [[0], [3]], "logarithms": {"1": "-1/2", "2": "-2"}, "sigma": 1}
+AHEAD_OF_A: dict[str, Any] = {
+    "lookahead": {"dynamics": {"transitions": [["a", "x", "b", 1, 3], ["a", "y", "c", 1, 1]]},
+                  "values": {"a": 2, "b": 4, "c": 6}},
+    "gamma": "1/2",
+}  # fmt: skip
+MOVES: dict[str, Any] = {
+    "transitions": [["a", "x", "b", 1, "y"], ["b", "y", "end", 2]], "terminal": ["end"],
+    "values": {"a": {"x": 1, "y": 5}, "b": {"y": 3, "x": 7}}, "alpha": "1/2", "gamma": "1/2",
+}  # fmt: skip
+HELD: dict[str, Any] = {
+    "dynamics": {"h": "u - h"}, "state": {"h": 1}, "action": {"u": 2}, "step": "1/10",
+    "discretisation": "zero-order hold",
+}  # fmt: skip
+
+
+def many_ways(more: int = 0) -> dict[str, Any]:
+    """Ten ways from a to b and twenty from there to the end, 200 episodes; and some straight to the end."""
+    ways = [["a", f"x{n}", "b", 1, n] for n in range(10)] + [["b", f"y{n}", "end", 1, n] for n in range(20)]
+    return {"mdp": {"transitions": [*ways, *(["a", f"z{n}", "end", 1, 3] for n in range(more))], "terminal": ["end"]}}
 
 
 def rows(*weights: object) -> dict[str, Any]:
@@ -534,6 +570,47 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("td-zero", VALUED_RUN | {"td_errors": True}, {"known": 3, "alpha": "alpha"}, "td_errors: they are not asked for"),
     ("td-zero", VALUED_RUN, {"values": {"a": 4}}, "the value of 'b' is missing"),
     ("td-zero", VALUED_RUN, {"values": {"a": 4, "b": 2, "c": 1}}, "the value is given for 'c'"),
+    ("bellman-residual", RAISED, {"gamma": 1}, "gamma: with a discount of 1 other values may solve the equations, too"),
+    ("bellman-residual", RAISED, {"mdp": {"transitions": [["a", "y", "end", 1, "x"]], "terminal": ["end"]}},
+     "mdp: 'a' has no action beside 'y'; give it another one"),
+    ("policy-value", LOOP, {"mdp": {"transitions": [["a", "x", "a", 1, 1], ["b", "x", "b", 1, 2]]}},
+     "average: it depends on the first state, for whoever comes to a stays there for ever, and so does whoever"),
+    ("sarsa-versus-q-learning", READ_AGAIN, {"alpha": "1/2"}, "known: leave alpha open, which is asked for then"),
+    ("sarsa-versus-q-learning", READ_AGAIN,
+     {"trajectory": {"states": ["a", "b", "c"], "actions": ["x", "x", "x"], "rewards": [2, 3]}},
+     "known: no target of Sarsa reads an updated value, so alpha does not follow"),
+    ("semi-gradient-td", BLOCKS, {"actions": ["x", "x"]}, "actions: one is named twice"),
+    ("semi-gradient-td", BLOCKS, {"actions": ["x", "z"]}, "trajectory: 'y' is taken but has no block of weights"),
+    ("semi-gradient-td", BLOCKS, {"actions": ["x", "y", "z"]}, "theta: 4 weights cannot be shared among 3 actions"),
+    ("semi-gradient-td", BLOCKS, {"trajectory": BLOCKS["trajectory"] | {"actions": ["x"]}},
+     "trajectory: Sarsa needs the action taken in every state, the last one too unless it is terminal"),
+    ("expected-return", EPISODES | many_ways(), many_ways(1), "mdp: there are more than 200 different episodes"),
+    ("rbf", FOUND_BETWEEN, {"sigma": "sigma"}, "sigma: the position can only be found where it is a number"),
+    ("rbf", FOUND_BETWEEN, {"sigma": 0}, "sigma: the width must be above 0, not 0"),
+    ("advantage", AHEAD_OF_A, {"lookahead": AHEAD_OF_A["lookahead"] | {"dynamics": {
+        "transitions": [["a", "x", "b", 1, 3], ["b", "y", "c", 1, 1]]}}},
+     "dynamics must hold the actions of one state only"),
+    ("sarsa", MOVES, {"transitions": [["a", "x", "b", 1, "y"], ["b", "y", "end", 2, "x"]]},
+     "transitions[2]: 'end' is terminal, so no action is taken there"),
+    ("sarsa", MOVES, {"transitions": [["a", "x", "b", 1, "y"], ["end", "y", "a", 2, "x"]]},
+     "transitions[2]: 'end' is terminal, so nothing leads on from there"),
+    ("sarsa", MOVES, {"transitions": [["a", "x", "b", 1], ["b", "y", "end", 2]]},
+     "transitions[1]: Sarsa needs the action taken in 'b' too; add it at the end"),
+    ("sarsa", MOVES, {"transitions": [["a", "z", "b", 1, "y"]]}, "values: 'z' is taken in 'a' but has no value there"),
+    ("sarsa", MOVES, {"values": {"a": {"x": 1}}}, "values: the action values of 'b' are missing"),
+    ("sarsa", MOVES, {"values": {"a": {"x": 1}, "b": {"x": 1}}}, "values: 'y' is taken in 'b' but has no value there"),
+    ("linearise", HELD, {"step": None}, "step is missing: for how long the zero-order hold keeps the action; add it"),
+    ("linearise", HELD, {"step": 0}, "step"),
+    ("linearise", HELD | {"story": "$h$ high"}, {"story": "$h high"}, "story: a $ is missing"),
+    ("linearise", HELD | {"entries": {"A": [[1, 1]]}}, {"entries": {}}, "entries: name one entry of A or B at least"),
+    ("linearise", HELD | {"entries": {"A": [[1, 1]]}}, {"entries": {"A": [[1, 2]]}},
+     "entries: A has 1 rows and 1 columns; name entries that it has"),
+    ("linearise", HELD | {"entries": {"A": [[1, 1]]}}, {"entries": {"A": [[0, 1]]}},
+     "entries: A has 1 rows and 1 columns; name entries that it has"),
+    ("linearise", HELD | {"entries": {"B": [[1, 1]]}}, {"entries": {"B": [[2, 1]]}},
+     "entries: B has 1 rows and 1 columns; name entries that it has"),
+    ("linearise", HELD | {"entries": {"B": [[1, 1]]}}, {"entries": {"B": [[1, 0]]}},
+     "entries: B has 1 rows and 1 columns; name entries that it has"),
     ("bandit", PULLED, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
     ("bandit", PULLED, {"between": ["y", "x"]}, "between: "),
 ]  # fmt: skip

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from draw_pins import fingerprint, pinned
 from rldrill.exercise import draw
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.draws import Draws
@@ -44,6 +45,18 @@ def test_every_family_draws_and_answers_what_the_golden_file_holds(name: str) ->
         )
         answers = {part["part"]: part["answer"]["exact"] for part in data["parts"]}
         assert answers == pinned["answers"], f"{exercise.id} has another answer than before."
+
+
+@pytest.mark.parametrize("name", families())
+def test_what_a_family_draws_does_not_change_without_another_revision(name: str) -> None:
+    before, now = pinned().get(name), fingerprint(family(name))
+    command = f"run 'python tests/shared/draw_pins.py {name}'"
+    assert before is not None, command
+    if now["draws"] != before["draws"]:
+        assert now["revision"] > before["revision"], (
+            f"{name} draws other problems than before. If that is meant, raise its REVISION and {command}."
+        )
+    assert now == before, command
 
 
 def test_the_golden_file_has_a_line_for_every_problem_and_no_other() -> None:

@@ -57,6 +57,16 @@ def test_matrices_stand_side_by_side() -> None:
     assert line.split() == ["A", "=", "3", "B", "=", "3", "C", "=", "3"]
 
 
+def test_what_is_said_of_tables_side_by_side_fills_the_width_and_no_more() -> None:
+    # Both have 26 columns at least and 3 between them; of 61 the 6 that are left make it 29 for each.
+    said = Paragraph("aa " * 18 + "bb:")
+    lines = shown((said, TABLE, said, TABLE), 8, width=61)
+    wide = " ".join(["aa"] * 10)
+    assert lines[0] == f"{wide}   {wide}"
+    assert len(wide) == 29
+    assert max(map(len, lines)) == 61
+
+
 def test_the_closest_way_is_two_columns_in_reading_order() -> None:
     lines = shown((Paragraph("Before."), TABLE, Paragraph("Then:"), TABLE), 3)
     assert lines == [

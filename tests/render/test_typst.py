@@ -1,5 +1,6 @@
 """Blocks and mathematics as Typst: all compiles, nothing is read as code, nothing is too wide."""
 
+import math
 from collections.abc import Callable
 from itertools import product
 from pathlib import Path
@@ -10,7 +11,7 @@ from printed import Word, words
 from rldrill.exercise import Exercise, draw
 from rldrill.print.paper import page_setup, pdf
 from rldrill.problems.catalogue import families, family
-from rldrill.problems.document import Equation, Heading, Paragraph, Table
+from rldrill.problems.document import Beside, Equation, Heading, Paragraph, Table
 from rldrill.problems.mathematics import (
     EMPTY,
     Accent,
@@ -31,6 +32,7 @@ from rldrill.problems.mathematics import (
     word,
 )
 from rldrill.render.mathematics.typst import text, typst
+from rldrill.render.mathematics.width import width, width_of_line
 from rldrill.render.typst import PAGE, block, document
 from rldrill.solutions.sheet import formulas
 
@@ -198,3 +200,29 @@ def test_three_narrow_tables_stand_on_as_many_lines_as_they_need() -> None:
     pair = (Paragraph("So it is:"), _TABLE)
     assert document(pair * 3).count("#announced") == 1
     assert document(pair * 8).count("#announced") == 2
+
+
+def test_an_equation_that_just_fits_stays_on_its_line() -> None:
+    item = Equation(mathematics("x"), (mathematics("a + b"), mathematics("c")), ("=", "="))
+    wide = width_of_line(item.left, item.rights, item.signs)
+    assert block(item, wide).startswith("#one-line(")
+    assert block(item, math.nextafter(wide, 0)).startswith("#chain(")
+    alone = Equation(EMPTY, (mathematics("+".join(["abc"] * 20)),), ("",))
+    wide = width(alone.rights[0])
+    assert block(alone, wide).startswith("#one-line(")
+    assert block(alone, math.nextafter(wide, 0)).startswith("#chain(")
+
+
+def test_tables_that_just_fit_are_not_measured_and_two_stand_abreast() -> None:
+    # Three signs of 6/10 of the type and two columns of 14/10 are 4.6; twice that and 1.2 between them are 10.4, where
+    # the line has 12/10 of the room.
+    table = Table(("a", "b"), (("cc", "d"),))
+    assert block(table, 4.601).startswith("#block(")
+    assert block(table, 4.599).startswith("#wide-block(")
+    assert block(Beside((table, table)), 10.401 / 1.2).startswith("#abreast(")
+    assert block(Beside((table, table)), 10.399 / 1.2).startswith("#beside(")
+
+
+@pytest.mark.parametrize(("signs", "function"), [(48, "#flow("), (49, "#one-line(")])
+def test_values_of_48_signs_share_a_line_and_longer_ones_do_not(signs: int, function: str) -> None:
+    assert block(Equation(EMPTY, (word("a" * signs), word("b")), ("", "")), PAGE).startswith(function)

@@ -1,6 +1,7 @@
 """Identities between the linear methods: LQR, its horizon, its linearisation, DDP."""
 
 from fractions import Fraction
+from itertools import product
 from json import dumps, loads
 from typing import Any
 from unicodedata import normalize
@@ -17,12 +18,15 @@ from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.expressions import parsed, worked_out
+from rldrill.problems.linear_quadratic import NOTATIONS, Notation
 from rldrill.problems.robots import robots
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
+from rldrill.solutions.formula.notation import gamma
 from rldrill.solutions.linear_methods.ddp_backward import _is_negative
+from rldrill.solutions.sheet.linear_methods import OTHER_ROOT, POSITIVE_S, Modes, scalar_system
 from rldrill.solutions.work import Equality, Note, Step
 
 whole = st.integers(-3, 3)
@@ -480,6 +484,41 @@ def test_the_riccati_equation_is_cleared_of_its_denominator_line_by_line(options
     first, *others = (sympy.expand(to_sympy(line.left) - to_sympy(line.rights[0])) for line in cleared)
     assert len(others) == 2
     assert all(sympy.expand(first - other) == 0 for other in others)
+
+
+@pytest.mark.parametrize("modes", Modes)
+def test_both_roots_and_the_misread_gain_are_the_same_in_the_letters_of_a_mode(modes: Modes) -> None:
+    # B = 2, Q = 2, R = 1/2, β = 3: 4P² + 3P − 1 = 0 has the roots (−3 ± √(9 + 16))/8, −1 and 1/4.
+    # With A = 3 and P = −1 for the cost-to-go the gain is −(4 − 1/2)⁻¹·2·(−1)·3 = 12/7, with S = 1 it is 6/(1/2 + 4).
+    system = scalar_system(NOTATIONS["value"], discounted=False, crossed=False, modes=modes)
+    numbers = {"A": 3, "B": 2, "Q": 2, "R": sympy.Rational(1, 2), "beta": 3}
+    put_in = {getattr(system.letters, name): number for name, number in numbers.items()}
+    worth = system.letters.value
+    other, with_cost = system.root.misread[OTHER_ROOT], system.gain.misread[POSITIVE_S]
+    assert [root.subs(put_in) for root in (system.root.right, other)] == [-1, sympy.Rational(1, 4)]
+    assert sympy.expand(system.quadratic.subs(put_in)) == 4 * worth**2 + 3 * worth - 1
+    at_the_root = {**put_in, worth: -1}
+    assert with_cost.subs(at_the_root) == sympy.Rational(12, 7)
+    assert system.gain.right.subs(at_the_root) == sympy.Rational(6, 1) / (4 + sympy.Rational(1, 2))
+
+
+@pytest.mark.parametrize("modes", Modes)
+@pytest.mark.parametrize("notation", [*NOTATIONS.values()], ids=[*NOTATIONS])
+@pytest.mark.parametrize(("discounted", "crossed"), [*product((False, True), repeat=2)])
+def test_the_root_solves_the_quadratic_and_the_riccati_equation(
+    notation: Notation, modes: Modes, discounted: bool, crossed: bool
+) -> None:
+    system = scalar_system(notation, discounted=discounted, crossed=crossed, modes=modes)
+    letters, third = system.letters, sympy.Rational(1, 3)
+    numbers = {letters.A: 3, letters.B: 2, letters.Q: 2, letters.R: third, letters.N: third / 2, gamma: third * 2}
+    numbers[letters.beta] = system.beta.right.subs(numbers)
+    root = system.root.right.subs(numbers)
+    numbers[letters.value] = root
+    assert (root > 0) is sympy.S(notation.costs)
+    assert abs(system.quadratic.subs(numbers).evalf(30)) < 1e-25
+    assert abs((system.equation.right.subs(numbers) - root).evalf(30)) < 1e-25
+    gain = system.gain.right.subs(numbers).evalf(30)
+    assert abs(3 - 2 * gain) * (sympy.sqrt(numbers[gamma]) if discounted else 1) < 1, "the closed loop is not stable"
 
 
 def test_the_modes_have_letters_of_their_own_and_come_from_the_matrices() -> None:

@@ -172,6 +172,17 @@ def test_nothing_for_moving_and_two_exits() -> None:
     assert set(answers["b"].values()) == {("right",)}  # up, down and (but beside L) left have Q = 10, but get nowhere
 
 
+@pytest.mark.parametrize("first", ["go", "exit"])
+def test_the_first_of_tied_actions_get_to_the_end_together(first: str) -> None:
+    """Each state may go to the other or leave, for the same; but where both go, nobody ever leaves."""
+    ways = {"go": {"a": ["b", 1, 0], "b": ["a", 1, 0]}, "exit": {"a": ["end", 1, 1], "b": ["end", 1, 1]}}
+    rows = [[state, way, *ways[way][state]] for state in "ab" for way in sorted(ways, key=lambda way: way != first)]
+    model = undiscounted(rows)
+    found = optimum(model, Fraction(1))
+    assert {state: set(actions) for state, actions in found.best.items()} == {"a": {*ways}, "b": {*ways}}
+    assert total(model, found.policy) == {"a": 1, "b": 1}
+
+
 def test_an_end_written_as_a_loop_is_worth_nothing() -> None:
     rows: Rows = [["a", "go", "goal", 1, 7], ["goal", "stay", "goal", 1, 0]]
     assert best(rows, ())["a"] == {"a": 7, "goal": 0}
@@ -226,6 +237,17 @@ def test_what_is_paid_back_at_once_does_no_harm_where_there_is_a_good_end() -> N
     answers = best(rows)
     assert answers["a"] == {"a": 1, "b": 0}
     assert answers["b"] == {"a": ("x",), "b": ("go",)}
+
+
+def test_what_a_loop_pays_on_average_is_exact_up_to_eight_digits() -> None:
+    def said(reward: str) -> str:
+        model = undiscounted([["a", "go", "a", 1, reward]], ())
+        with pytest.raises(NoSolution) as told:
+            optimum(model, Fraction(1))
+        return str(told.value)
+
+    assert "1234/5679" in said("1234/5679")
+    assert "about 0.2173" in said("12340/56787")
 
 
 def test_a_policy_that_pays_for_ever_is_told_where() -> None:

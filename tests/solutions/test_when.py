@@ -6,15 +6,25 @@ from rldrill.problems.catalogue import families, family
 from rldrill.solutions.drawing import distinguishable, draw
 from rldrill.solutions.solution import solver
 
-#: Mistakes that change something where they are ruled out: what is asked there is another question, in which they are
-#: no mistake, or one that nobody makes.
+#: Mistakes that change something where they are ruled out, and why they cannot be told there.
 OTHER_QUESTION = {
-    "forgot-gamma-in-q", "own-value-for-next", "synchronous", "in-place", "max-for-mean", "traces-kept",
-    "on-and-off-policy-swapped", "both-alike", "neither", "normalised-without-exp", "ilqr-for-ddp", "ddp-for-ilqr",
-    "cost-to-go-given", "forgot-policy", "discounted-at-one-level-only", "mean-for-max", "prior-again",
-    "block-of-the-wrong-action", "weights-interleaved", "width-forgotten", "half-forgotten", "sigma-not-squared",
-    "norm-not-squared",
-}  # fmt: skip
+    "synchronous": "the order is given",
+    "in-place": "the order is given",
+    "ilqr-for-ddp": "the method is named",
+    "ddp-for-ilqr": "the method is named",
+    "max-for-mean": "unknowns are not compared",
+    "mean-for-max": "a policy averages rightly",
+    "forgot-policy": "there is no policy",
+    "discounted-at-one-level-only": "with one level: forgot-gamma",
+    "traces-kept": "only Watkins cuts them",
+    "on-and-off-policy-swapped": "another word is asked",
+    "both-alike": "another word is asked",
+    "neither": "another word is asked",
+    "normalised-without-exp": "the given odds contradict",
+    "block-of-the-wrong-action": "w's own block is told; of two actions the other one tells nothing",
+    "weights-interleaved": "w's own block is told",
+    "width-forgotten": "b is asked or used before",
+}
 
 
 @pytest.mark.parametrize("name", families())
