@@ -10,7 +10,7 @@ from rldrill.solutions.formula.nodes.leaves import computed
 from rldrill.solutions.formula.nodes.sets import MaxOf
 from rldrill.solutions.formula.putting_in import evaluated, reduced
 
-#: So many brackets within one are not worked out in the same line as the one around them.
+#: So many products and powers in a bracket are not worked out in the same line as brackets in them.
 _SEVERAL = 2
 
 
@@ -35,9 +35,14 @@ def _outer(factor: Expr) -> Expr:
     """A bracket, or one below a line or under a root, with the brackets in it worked out where there are several."""
     if factor.is_Pow:
         return Pow(_outer(factor.args[0]), factor.args[1], evaluate=False)
-    if not factor.is_Add or sum(map(_holds_bracket, factor.args)) < _SEVERAL:
+    if not factor.is_Add or not any(map(_holds_bracket, factor.args)) or sum(map(_is_work, factor.args)) < _SEVERAL:
         return factor
     return Add._from_args([_worked_out(term) for term in factor.args])
+
+
+def _is_work(term: Expr) -> bool:
+    """Whether it is a product or a power, or holds a bracket."""
+    return term.is_Pow or len([factor for factor in Mul.make_args(term) if factor != -1]) > 1 or _holds_bracket(term)
 
 
 def _holds_bracket(term: Expr) -> bool:

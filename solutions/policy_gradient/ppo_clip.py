@@ -107,7 +107,7 @@ def _reason(time: int, *, cut: bool, inside: bool) -> str:
     if cut:
         return (
             f"$c_{{{time}}}$ is the smaller term. In it $ρ_{{{time}}}$ is replaced by the bound, which does not "
-            "depend on $θ$: the gradient is zero."
+            "depend on $θ$: clipping makes the gradient zero."
         )
     return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: clipping does not make the gradient zero."
 
