@@ -124,7 +124,7 @@ def _open_fields(model: type[BaseModel]) -> tuple[str, ...]:
 
 
 def _may_be_open(kind: Any) -> bool:
-    if kind is Any or kind is Parameter or kind is Logarithm:
+    if kind in (Any, Parameter, Logarithm):
         return True
     if isinstance(kind, type) and issubclass(kind, BaseModel):
         return bool(_open_fields(kind))

@@ -33,7 +33,7 @@ class FileField:
     default: str | None
     means: str
     example: str
-    form: str
+    form: str = ""
 
 
 def fields(family: str) -> tuple[FileField, ...]:

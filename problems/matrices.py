@@ -32,7 +32,7 @@ def _is_row(value: Any) -> bool:
     return isinstance(value, list | tuple)
 
 
-def _even(matrix: Rows, which: str) -> Rows:
+def _even(matrix: Rows, which: str = "") -> Rows:
     """Refuse what is no rectangle of entries."""
     if not matrix or not matrix[0]:
         raise ValueError(f"{which}is empty; a matrix needs at least one row with one entry")

@@ -52,7 +52,7 @@ def exponent(expression: sympy.Expr) -> sympy.Expr | None:
     return expression.args[0] if isinstance(expression, sympy.exp) else None
 
 
-def ball(expression: sympy.Expr, at: fmpq | None) -> arb:
+def ball(expression: sympy.Expr, at: fmpq | None = None) -> arb:
     """A ball that is certain to hold the number, with ``at`` in place of every letter.
 
     Raises:

@@ -70,7 +70,7 @@ def plan(
     )
 
 
-def version_codes(count: int, seed: int, secret: Secret | None) -> tuple[str, ...]:
+def version_codes(count: int, seed: int, secret: Secret | None = None) -> tuple[str, ...]:
     """What the versions of an exam are called."""
     return tuple(map(version_code, range(count))) if secret is None else secret.codes(seed, count)
 

@@ -63,7 +63,7 @@ def _text(parent: ElementTree.Element, text: str) -> ElementTree.Element:
     return parent
 
 
-def _html(question: ElementTree.Element, tag: str, text: str, writer: _Writer | None) -> None:
+def _html(question: ElementTree.Element, tag: str, text: str, writer: _Writer | None = None) -> None:
     element = _text(ElementTree.SubElement(question, tag, format="html"), text)
     for name, drawing in writer.files.items() if writer else ():
         file = ElementTree.SubElement(element, "file", name=name, path="/", encoding="base64")

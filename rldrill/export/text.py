@@ -17,7 +17,7 @@ _MISTAKES = 8
 FOLDED, BELOW = ("<details><summary>{}</summary>", "</details>"), ("**{}**",)
 
 
-def markdown_exam(exam: Exam, version: Version, *, practice: bool, answers: Sequence[str]) -> str:
+def markdown_exam(exam: Exam, version: Version, *, practice: bool, answers: Sequence[str] = FOLDED) -> str:
     """A version as Markdown; for practice with answer and working behind each part."""
     return "\n\n".join(_lines(exam, version, answers if practice else ())) + "\n"
 

@@ -32,7 +32,7 @@ class Files:
     output: Path
     codes: tuple[str, ...]
     layout: Layout
-    personal: bool
+    personal: bool = False
     only_keys: bool = False
 
     @property

@@ -32,7 +32,7 @@ def page_setup(
     title: str,
     left: str,
     right: str,
-    margin: str,
+    margin: str = "2cm",
     size: str = "10.5pt",
     columns: int = 1,
 ) -> str:

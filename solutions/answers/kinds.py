@@ -16,6 +16,7 @@ from rldrill.problems.mathematics import (
     row,
     word,
 )
+from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
@@ -55,9 +56,9 @@ class Allowed:
         longest: the most characters that are read.
     """
 
-    parameters: Sequence[str]
-    ends: Sequence[str]
-    longest: int
+    parameters: Sequence[str] = ()
+    ends: Sequence[str] = ()
+    longest: int = LONGEST
 
 
 class Answer(ABC, Generic[KindT]):

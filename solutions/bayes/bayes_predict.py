@@ -54,7 +54,7 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _moved(
-    work: Work, action: str, belief: Mapping[str, Any], motion: Mapping[Any, Any], label: str | None
+    work: Work, action: str, belief: Mapping[str, Any], motion: Mapping[Any, Any], label: str | None = None
 ) -> dict[str, Any]:
     """The belief after an action, state by state."""
     known = {"a": action, "p": belief, "motion": motion, "states": tuple(belief)}

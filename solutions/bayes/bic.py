@@ -175,7 +175,7 @@ def _border(given: Given, work: Work, better: int) -> None:
     ]
     more = models[0].k - models[1].k
     gained = to_sympy(fit[rich]) - to_sympy(fit[simple])
-    ratio = to_sympy(exact(models[0].likelihood or 1) / exact(models[1].likelihood or 1))
+    ratio = to_sympy(exact(needed(models[0].likelihood)) / exact(needed(models[1].likelihood)))
     n = simplest(ratio ** sympy.Rational(2, more))
     work.lines.append(Equality(sides[0], (sides[1],)))
     work.lines.append(Equality(multiple(exact(more), sympy.log(count)), (tidy(2 * gained),)))
@@ -215,7 +215,7 @@ MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10)
 def oracle(given: Given) -> Answers:
     """Every θ of a fine grid tried, then its neighbourhood; products of chances rather than sums of logs."""
     if given.border and given.fitted is not None:
-        chances = {name: at(model.likelihood or 1) for name, model in given.fitted.items()}
+        chances = {name: at(needed(model.likelihood)) for name, model in given.fitted.items()}
         simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
         low, high = 1.0, 1e12  # where the simple model becomes the better one
         for _ in range(200):

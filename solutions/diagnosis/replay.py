@@ -39,8 +39,8 @@ class Application:
     step: Step
     value: Any
     known: Mapping[str, Any]
-    equation: bool
-    first: Mapping[Any, Any] | None
+    equation: bool = False
+    first: Mapping[Any, Any] | None = None
 
     @property
     def formula(self) -> Formula:
@@ -242,7 +242,7 @@ def replayed(
     change: Change,
     carried: Mapping[str, Any],
     right: Sequence[Application],
-    trace: list[Traced] | None,
+    trace: list[Traced] | None = None,
 ) -> Mapping[str, Any] | None:
     """The answers of a working that is changed, where it was ``right``; None where it leads to none.
 

@@ -56,7 +56,7 @@ class Edit:
     kind: str
     right: Expr
     part: Expr
-    instead: Expr | None
+    instead: Expr | None = None
     within: tuple[Over, ...] = ()
     once: Expr | None = None
 

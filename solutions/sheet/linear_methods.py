@@ -449,7 +449,7 @@ class ScalarSystem(NamedTuple):
 
 
 @cache
-def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes: Modes) -> ScalarSystem:
+def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes: Modes = Modes.NONE) -> ScalarSystem:
     """The scalar problem in the letters of one convention, or in those of a mode."""
     letters = _letters_of(notation, modes)
     A, B, Q, R, N, P, L, b = letters

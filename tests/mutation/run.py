@@ -29,6 +29,7 @@ _BASELINE_SECONDS = 1800
 #: memory than a run may, and a run that crashes for that would count as one that noticed a change.
 _TOO_DEAR = (
     "tests/export/test_judge.py::",
+    "tests/export/test_gallery.py::test_a_search",
     "tests/test_wheel.py::",
     "tests/render/test_typst.py::test_all_formulas_questions_and_workings_stay_inside_the_page",
     "tests/render/test_typst.py::test_they_do_so_in_a_narrow_column_too",

@@ -48,6 +48,12 @@ def test_a_formula_of_48_signs_stays_in_one_piece_and_a_longer_one_may_be_broken
     assert inline(f"${long}$", glued=True) == long
 
 
+def test_a_word_that_is_too_long_is_not_broken() -> None:
+    name = "a" * 41
+    assert wrapped(f"It is in {name} now", 40) == ["It is in", name, "now"]
+    assert wrapped(f"{name[:20]}-{name[:20]}", 40) == [f"{name[:20]}-{name[:20]}"]
+
+
 def test_brackets_and_colons_of_a_text_are_no_commands(capsys: pytest.CaptureFixture[str]) -> None:
     text = "[bold] [red]states[/red] :warning: 12"
     assert plain((Paragraph(text),)) == text

@@ -58,3 +58,10 @@ def test_draws_that_are_no_good_questions(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr(drawing, "ATTEMPTS", 3)
     monkeypatch.setattr(drawing, "flaws", lambda _: iter(["(a) is zero"]))
     assert "none of 3 draws is a good question (3 × (a) is zero); draw otherwise" in told()
+
+
+def test_the_three_commonest_flaws_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = iter("cabdaabbc")
+    monkeypatch.setattr(drawing, "ATTEMPTS", 9)
+    monkeypatch.setattr(drawing, "flaws", lambda _: iter([f"({next(found)}) is zero"]))
+    assert "(3 × (a) is zero; 3 × (b) is zero; 2 × (c) is zero)" in told()

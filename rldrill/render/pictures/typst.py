@@ -25,7 +25,7 @@ def width_of(block: Picture) -> float:
     return math.inf if scene is None else scene.box.right - scene.box.left
 
 
-def picture(block: Picture, *, shrinks: bool) -> str:
+def picture(block: Picture, *, shrinks: bool = False) -> str:
     """A picture as Typst markup; nothing where it cannot be drawn readably.
 
     Args:
@@ -38,7 +38,7 @@ def picture(block: Picture, *, shrinks: bool) -> str:
     return "" if scene is None else f"#drawing({quoted(described(block))}, {scene_box(scene, shrinks=shrinks)})\n"
 
 
-def scene_box(scene: Scene, *, shrinks: bool) -> str:
+def scene_box(scene: Scene, *, shrinks: bool = False) -> str:
     """A scene as an expression: a box of its size, shrunk where there is less room."""
     box = scene.box
     shapes = "".join(f"\n  {_shape(shape, (box.left, box.top))}" for shape in scene.shapes)
