@@ -122,6 +122,10 @@ class Exam:
     sealed: bool = False
     scale: int | None = None
 
+    def title_of(self, version: Version) -> str:
+        """The title of a version: the exam's, with its code where there are several."""
+        return self.head.title + (f" ({version.code})" if len(self.versions) > 1 else "")
+
 
 def points_of(exercise: Exercise) -> int:
     """What a problem earns, all parts together."""

@@ -108,10 +108,6 @@ def _resource(
         SubElement(resource, "dependency", identifierref=needs)
 
 
-def _title(exam: Exam, version: Version) -> str:
-    return exam.head.title + (f" ({version.code})" if len(exam.versions) > 1 else "")
-
-
 def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Element:
     """What Canvas keeps of a quiz beside its questions."""
     quiz = Element("quiz", {"identifier": name, "xmlns": _META})
@@ -119,7 +115,7 @@ def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Ele
     note = typing_note(exam.head, reads="language")
     limit = {} if exam.head.duration is None else {"time_limit": str(exam.head.duration)}
     said = {
-        "title": _title(exam, version),
+        "title": exam.title_of(version),
         "description": "".join(f"<p>{escape(line)}</p>" for line in (exam.head.instructions, note) if line),
         "shuffle_answers": "false",
         "quiz_type": "practice_quiz" if practice else "assignment",
@@ -136,7 +132,7 @@ def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Ele
 
 def _quiz(writer: _Writer, name: str, exam: Exam, version: Version, *, practice: bool) -> Element:
     root = Element("questestinterop", {"xmlns": _QTI, "xmlns:xsi": _XSI, "xsi:schemaLocation": f"{_QTI} {_QTI}p1.xsd"})
-    assessment = SubElement(root, "assessment", ident=name, title=_title(exam, version))
+    assessment = SubElement(root, "assessment", ident=name, title=exam.title_of(version))
     _fields(SubElement(assessment, "qtimetadata"), {"cc_maxattempts": "unlimited" if practice else "1"})
     section = SubElement(assessment, "section", ident="root_section")
     for number, exercise in enumerate(version.exercises, 1):

@@ -34,9 +34,8 @@ def html_exam(exam: Exam, version: Version, *, practice: bool) -> str:
     )
     told = page_words(exam.head.language)
     score = '<p id="score" role="status"></p>\n' if practice else ""
-    title = exam.head.title if len(exam.versions) == 1 else f"{exam.head.title} ({version.code})"
     return page(
-        title,
+        exam.title_of(version),
         _front(exam, version) + problems + score,
         language=exam.head.language,
         more=scripts(tasks(version.exercises), told, mark=exam.head.decimal_mark) if practice else "",

@@ -107,8 +107,7 @@ def _resource(name: str, what: str, beside: Sequence[str], needed: Sequence[str]
 
 
 def _test(exam: Exam, version: Version, names: Sequence[str]) -> str:
-    code = f" ({version.code})" if len(exam.versions) > 1 else ""
-    title = escape(exam.head.title + code)
+    title = escape(exam.title_of(version))
     items = "".join(f'<assessmentItemRef identifier="{name}" href="{name}.xml"/>\n' for name in names)
     limit = "" if exam.head.duration is None else f'<timeLimits maxTime="{60 * exam.head.duration}"/>\n'
     return (

@@ -29,6 +29,7 @@ def test_what_grading_reads_of_spreadsheets_is_read_here_too(tmp_path: Path) -> 
     people = (Person("Zoé Lee", "0012"),)
     assert read_roster(roster(tmp_path, 'sep=;\r\nname;number\r\nZoe\u0301  Lee;="0012"\r\n')) == people
     assert read_roster(roster(tmp_path, "Vorname,Nachname,Matrikelnummer\nZoé,Lee,0012\n")) == people
+    assert read_roster(roster(tmp_path, "name,says,number\nZoé Lee,hello,0012\n")) == people
     (tmp_path / "unicode.csv").write_bytes("name\tnumber\nZoé Lee\t0012\n".encode("utf-16"))
     assert read_roster(tmp_path / "unicode.csv") == people
 

@@ -8,6 +8,7 @@ import sqlite3
 import subprocess
 import sys
 import zipfile
+from dataclasses import replace
 from decimal import Decimal
 from functools import cache
 from html.parser import HTMLParser
@@ -47,6 +48,14 @@ def written(name: str, folder: Path, *, practice: bool = True) -> bytes:
     format_ = FORMATS[name]
     (path,) = export(exam(), folder / f"exam{format_.ending}", format_, practice=practice)
     return path.read_bytes()
+
+
+def test_the_code_of_a_version_is_told_where_there_are_several() -> None:
+    one = exam("Costs")
+    (version,) = one.versions
+    two = replace(one, versions=(version, replace(version, code="B")))
+    assert one.title_of(version) == "Costs"
+    assert [two.title_of(each) for each in two.versions] == ["Costs (A)", "Costs (B)"]
 
 
 class Nesting(HTMLParser):

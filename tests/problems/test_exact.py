@@ -4,7 +4,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rldrill.problems.exact import Logarithm, Parameter, read_fraction, read_scalar, read_weight, shown
+from rldrill.problems.exact import (
+    Logarithm,
+    Parameter,
+    Root,
+    read_fraction,
+    read_scalar,
+    read_weight,
+    read_width,
+    shown,
+)
 from rldrill.problems.fractions import Fraction
 
 
@@ -63,3 +72,21 @@ def test_logarithms(written: str) -> None:
 def test_what_is_no_logarithm_of_a_weight(written: str) -> None:
     with pytest.raises(ValueError, match="must be the logarithm of a whole number above 1 and below 1000"):
         read_weight(written)
+
+
+@pytest.mark.parametrize(
+    ("text", "square"),
+    [
+        ("sqrt(2)/3", "2/9"),
+        ("2/sqrt(2)", "2"),
+        ("sqrt(3)/sqrt(2)", "3/2"),
+        ("3*sqrt(2)", "18"),
+        ("sqrt(2)*sqrt(3)", "6"),
+    ],
+)
+def test_products_and_quotients_of_roots_are_one_root(text: str, square: str) -> None:
+    assert read_width(text) == Root(f"sqrt({square})")
+
+
+def test_a_root_that_comes_out_is_a_number() -> None:
+    assert [read_width(text) for text in ("sqrt(8)/sqrt(2)", "sqrt(2)*sqrt(8)", "sqrt(9/4)")] == [2, 4, Fraction(3, 2)]

@@ -21,14 +21,19 @@ from rldrill.problems.family import Family, trusted
 FILE = Path(__file__).parent.parent / "problems" / "draws.json"
 #: So many draws of each level go into a fingerprint: enough for what is drawn once in twenty times.
 COUNTED = 100
+#: What is asked is looked at in one draw of so many.
+ASKED_OF = 5
 
 
 def fingerprint(known: Family) -> dict[str, Any]:
     """The revision, and the hash of many draws, before any is looked at as a question."""
     keys = (f"{known.name}/{level}/{number}" for level in known.levels for number in range(COUNTED))
     with trusted():
-        drawn = [known.draw(int(key.split("/")[1]), Draws(key)).model_dump(mode="json") for key in keys]
-    written = json.dumps(drawn, ensure_ascii=False, sort_keys=True)
+        drawn = [known.draw(int(key.split("/")[1]), Draws(key)) for key in keys]
+    # An answer of zeros, or of tied actions, is drawn again where it is not allowed for.
+    allowed = [[(part.zero, part.ties) for part in known.question(given).parts] for given in drawn[::ASKED_OF]]
+    data = [[given.model_dump(mode="json") for given in drawn], allowed]
+    written = json.dumps(data, ensure_ascii=False, sort_keys=True)
     return {"revision": known.revision, "draws": sha256(written.encode()).hexdigest()[:16]}
 
 

@@ -17,6 +17,7 @@ from asking import solved
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
 from rldrill.problems.scenes import SCENES
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.drawing import draw
 
@@ -448,3 +449,14 @@ def test_a_uniform_prior_needs_one_integral() -> None:
     exercise = rldrill.read({"family": "model-comparison", "given": flat})
     assert exercise.solve()["a"]["x"] == fmpq(1, 3)
     assert "(0!2!)/((0 + 2 + 1)!)" in str(exercise.working("a"))
+
+
+@pytest.mark.parametrize(("actions", "labels"), [(["go"], ""), (["go", "go"], "1 1 1 2 2")])
+def test_steps_are_numbered_where_there_is_more_than_one(actions: list[str], labels: str) -> None:
+    # In the first the letter is found; then both states are worked out in the first and in the second.
+    motion = {"go": {"a": {"a": "1/2", "b": "1/2"}, "b": {"b": 1}}}
+    given_ = {"belief": {"a": "q", "b": "1-q"}, "motion": motion, "actions": actions,
+              "outcome": {"state": "b", "probability": "3/4"}}  # fmt: skip
+    exercise = rldrill.read({"family": "bayes-predict", "given": given_})
+    written = "\n".join(unicode_text(block) for block in exercise.working())
+    assert " ".join(findall(r"step (\d)", written)) == labels
