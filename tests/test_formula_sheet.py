@@ -83,7 +83,7 @@ def test_the_pdf_is_two_pages_with_every_word_inside_the_margins(paper: str, wor
     path = tmp_path / "sheet.pdf"
     path.write_bytes(pdf(sheet_source([], paper, workings=workings)))
     found = list(words(path))
-    assert len({word.page for word in found}) == (4 if workings else 2)
+    assert len({word.page for word in found}) == (5 if workings else 2)
     assert not [word for word in found if word.left <= MARGIN or word.right >= word.width - MARGIN]
     below_title = [word for word in found if 80 < word.top < 740]
     assert not [word for word in below_title if word.left < word.width / 2 < word.right]

@@ -399,7 +399,7 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
 MISCONCEPTIONS = (
     OTHER_ROOT,
     POSITIVE_S,
-    linear_quadratic.cost_to_go(solve, lambda given: slice(1) if given.closed_loop is None else slice(1, None)),
+    linear_quadratic.cost_to_go(solve, lambda _: slice(1)),
 )
 
 
