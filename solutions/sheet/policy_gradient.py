@@ -231,7 +231,7 @@ with evaluate(False):
     WITHOUT_EXP = Misconception(
         "normalised-without-exp",
         "The preferences are exponentiated before they are normalised.",
-        when=lambda given: given.odds is None,
+        when=lambda given: given.odds is None and not given.parameters(),  # quotients of logarithms are not compared
     )
     SOFTMAX_POLICY = Formula(
         "softmax-policy",

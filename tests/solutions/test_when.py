@@ -20,7 +20,7 @@ OTHER_QUESTION = {
     "on-and-off-policy-swapped": "another word is asked",
     "both-alike": "another word is asked",
     "neither": "another word is asked",
-    "normalised-without-exp": "the given odds contradict",
+    "normalised-without-exp": "the given odds contradict; with a letter it would take too long to judge",
     "block-of-the-wrong-action": "w's own block is told; of two actions the other one tells nothing",
     "weights-interleaved": "w's own block is told",
     "width-forgotten": "b is asked or used before",
