@@ -43,10 +43,11 @@ def epsilon_greedy(
     best = best_actions(values)
     formula = EPSILON_GREEDY if len(best) == 1 else EPSILON_GREEDY_TIED
     known = {"epsilon": epsilon, "actions": {state: tuple(values)}, "best": {state: best[0]}, "greedy": {state: best}}
+    size = f'$|A("{state}")| = {len(values)}$'
     if len(best) == 1:
-        work.say(
-            f'The greedy action is $a^*("{state}") = "{best[0]}"$, one of $|A("{state}")| = {len(values)}$ actions.'
-        )
+        work.say(f'The greedy action is $a^*("{state}") = "{best[0]}"$, one of {size} actions.')
+    else:
+        work.say(f'The best actions are {joined([*best])}: $|A^*("{state}")| = {len(best)}$ of {size}.')
     return {action: work.step(formula, s=state, a=action, label=label, **known) for action in only or values}
 
 

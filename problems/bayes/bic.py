@@ -19,7 +19,7 @@ from rldrill.problems.parts import Choice, Number, Part, Values
 
 TITLE = "Bayesian information criterion"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
-REVISION = 6
+REVISION = 7
 
 #: What the models say of the coins' probabilities of heads.
 COIN_MODELS = {
@@ -131,11 +131,16 @@ def draw(level: int, rng: Draws) -> Given:
             return given
 
 
+#: So many tosses of a single coin leave the numbers small.
+_FEW_TOSSES = 12
+
+
 def _drawn(level: int, rng: Draws) -> Given:
     criterion = rng.choice(("BIC", "BIC", "AIC"))
     kind = rng.choice({1: ("fitted",), 2: ("fitted", "AIC", "coin"), 3: ("coins", "three coins", "border")}[level])
     if kind == "coin":
-        unlike = tuple(counts for counts in _handy() if counts[0] != counts[1])  # or both models say the same
+        # Of as many heads as tails both models say the same.
+        unlike = tuple(counts for counts in _handy() if counts[0] != counts[1] and sum(counts) <= _FEW_TOSSES)
         tosses = {rng.choice(("red", "blue", "gold")): rng.choice(unlike)}
         return Given(
             criterion=criterion, data=Data(tosses=tosses, models=rng.choice((("fair", "shared"), ("shared", "fair"))))
@@ -156,7 +161,7 @@ def _drawn(level: int, rng: Draws) -> Given:
         likelihoods = [Fraction(1, base**lost), Fraction(1, base ** (lost - better))]
         return _fitted_models(rng, names, numbers, likelihoods, border=rng.choice(("more", "fewer")))
     if kind == "AIC":
-        logs = sorted(rng.distinct(len(names), 20, 32), reverse=True)
+        logs = sorted(rng.distinct(len(names), 10, 20), reverse=True)
         fitted = {
             name: Fitted(log_likelihood=-log, k=int(k)) for name, log, k in zip(names, logs, numbers, strict=True)
         }

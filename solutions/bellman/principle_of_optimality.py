@@ -70,11 +70,16 @@ def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:
 
 def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value], work: Work) -> Value:
     """The best way to a state, by the same formula with that state for the goal, and the best way on from it."""
+    before = given.backwards[given.backwards.index(through) + 1 :]
+    leading = [through]
+    for state in before:
+        leading += [state] * any(after in leading for after in given.onward[state])
+    onwards = dict.fromkeys(after for state in leading[1:] for after in given.onward[state] if after not in leading)
     work.say(
         f"The part up to {through} must be optimal. $W(s)$ is the greatest return of a path from $s$ to {through}, "
-        f'so $W("{through}") = 0$, and from there it goes backwards as before:'
+        f'so $W("{through}") = 0$, and from there it goes backwards as before'
+        f"{f', without the edges to {joined([*onwards])}, from where no path leads to {through}' if onwards else ''}:"
     )
-    before = given.backwards[given.backwards.index(through) + 1 :]
     there = _totals(through, before, given.onward, R, work, BEST_WAY_TO)
     total = there[given.start] + values[through]
     onward = f"{'−' if sign(values[through]) < 0 else '+'} {absolute(values[through])}"

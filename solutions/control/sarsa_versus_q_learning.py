@@ -19,7 +19,7 @@ from rldrill.solutions.sheet.control import (
     SARSA_TARGET_FORGOT_GAMMA,
     TOWARDS_TARGET,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Step, Work
 
 #: The letter of the method that is meant by a word.
 _LETTERS = {
@@ -82,8 +82,8 @@ def _along(
     run = given.trajectory
     moves = [*zip(run.states[:-2], run.actions, strict=False)][: steps and steps - 1]
     read = [time for time, (state, _) in enumerate(moves) if state in run.states[time + 2 :]]
-    if moves:
-        work.say(_updates_needed(read))
+    if moves and (read or steps is None):
+        work.say(_updates_needed(read, every=steps is None))
     found = [(known, work.step(formula, t=0, **known))]
     for time, pair in enumerate(moves):
         if time in read:
@@ -92,13 +92,13 @@ def _along(
     return found
 
 
-def _updates_needed(times: Sequence[int]) -> str:
-    """Which updates are written: those of states that are entered later on."""
+def _updates_needed(times: Sequence[int], *, every: bool) -> str:
+    """Which updates are written: those of states that are entered later on, in every target or in those needed here."""
     if not times:
         return "No state that is updated is entered later on, so all targets read the table as it was before the run."
     at = joined([f"$t = {time}$" for time in times])
     which = f"update at {at} is" if len(times) == 1 else f"updates at {at} are"
-    return f"Only the {which} written: no target reads what the others change."
+    return f"Only the {which} written: no target{'' if every else ' that is needed here'} reads what the others change."
 
 
 def _moved(work: Work, time: int, known: dict[str, Any], target: Value) -> Value:
@@ -145,10 +145,16 @@ def _change(given: Given, other: Given, work: Work, formula: Formula, alpha: Val
         if formula is SARSA_TARGET
         else ("Q-learning", "in none of them is this value the greatest")
     )
-    before, after = ([target for _, target in _along(run, Work(), formula, alpha)] for run in (given, other))
-    for time, (old, new) in enumerate(zip(before, after, strict=True)):
+    changed = Work()
+    before, after = (
+        [target for _, target in _along(run, spare, formula, alpha)]
+        for run, spare in ((given, Work()), (other, changed))
+    )
+    steps = [line for line in changed.lines if isinstance(line, Step) and line.formula is formula]
+    for old, new, step in zip(before, after, steps, strict=True):
         if old != new:
-            work.say(f"{name}'s target $y_{{{time}}}$ would be ${told(new)}$, not ${told(old)}$.")
+            work.say(f"{name}'s target $y_{{{step.known['t']}}}$ would not be ${told(old)}$, but")
+            work.lines.append(step)
             return True
     work.say(f"{name}'s targets would stay the same: {why}.")
     return False

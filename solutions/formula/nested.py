@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+import sympy
 from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.formula.node import Node
@@ -35,9 +36,15 @@ def _outer(factor: Expr) -> Expr:
     """A bracket, or one below a line or under a root, with the brackets in it worked out where there are several."""
     if factor.is_Pow:
         return Pow(_outer(factor.args[0]), factor.args[1], evaluate=False)
-    if not factor.is_Add or not any(map(_holds_bracket, factor.args)) or sum(map(_is_work, factor.args)) < _SEVERAL:
+    if not factor.is_Add or not any(map(_holds_bracket, factor.args)):
+        return factor
+    if sum(map(_is_work, factor.args)) < _SEVERAL and not any(map(_holds_root, factor.args)):
         return factor
     return Add._from_args([_worked_out(term) for term in factor.args])
+
+
+def _holds_root(term: Expr) -> bool:
+    return any(factor.is_Pow and factor.args[1] == sympy.S.Half for factor in Mul.make_args(term))
 
 
 def _is_work(term: Expr) -> bool:

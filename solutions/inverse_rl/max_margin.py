@@ -67,8 +67,8 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
     place = given.w.index(letter)
     more = ", ".join(f"{shown(given.expert[place])} > {shown(rival.mu[place])}" for rival in given.policies.values())
     work.say(
-        f"The expert has more of feature ${place + 1}$ than every other policy, ${more}, so each constraint is a lower "
-        f"bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$, so the smallest one "
+        f"The expert has more of feature ${place + 1}$ than every other policy, ${more}$, so each constraint is a "
+        f"lower bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$, so the smallest one "
         f"is ${enough}$.".replace("-", "−")
     )
     work.answer(enough)

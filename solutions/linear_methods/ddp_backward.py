@@ -101,7 +101,7 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
             "In second derivatives $ξ$ stands for state and action together: $ξ_j$ and $ξ_k$ are any two of its "
             "entries."
         )
-    work.say("Second derivatives that are not written down are $0$.")
+    work.say("The other second derivatives of $r$ are $0$.")
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:
         work.say(f"iLQR leaves out the {'products' if scalar else 'sums'} with the second derivatives of $f$.")

@@ -174,7 +174,7 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
         f"Clipping lowers an objective only where the advantage is positive and the ratio above $1$, or the advantage "
         f"negative and the ratio below $1$. That is so at $t = {one}$ alone; the other objectives are the unclipped "
         f"terms. The mean of all unclipped terms is ${told(unclipped)}$, but $L = {told(objective)}$ is less, so "
-        f"$ρ_{{{one}}}$ is clipped:"
+        f"$ρ_{{{one}}}$ is clipped. For such a sample:"
     )
     held = _at_the_bound(work, known, one)
     mean = work.step(PPO_BATCH, L_t={**known["unclipped"], one: held}, **known)

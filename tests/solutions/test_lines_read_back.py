@@ -21,7 +21,7 @@ from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.rational import RationalFunction
 from rldrill.solutions.solution import Solution
-from rldrill.solutions.work import Elimination, Equality, Step
+from rldrill.solutions.work import Elimination, Equality, Note, Step
 
 SEEDS = range(40, 43)
 LETTERS = (*PARAMETERS, "y")
@@ -126,3 +126,11 @@ def test_most_lines_are_read() -> None:
             unread += 1
     assert len(told) > 5000
     assert unread < len(told) / 30  # names, factorials, vectors
+
+
+@pytest.mark.parametrize("name", families())
+def test_mathematics_in_sentences_is_closed(name: str) -> None:
+    for level in (1, 2, 3):
+        for seed in range(5):
+            for line in draw(name, level, seed).lines:
+                assert not isinstance(line, Note) or line.text.count("$") % 2 == 0, line.text
