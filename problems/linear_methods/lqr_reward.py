@@ -82,7 +82,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 #: The largest reward of a level.
-_MOST = {1: 30, 2: 45, 3: 200}
+_MOST = {1: 40, 2: 55, 3: 200}
 
 
 def _gain(rng: Draws, states: int) -> Line:
