@@ -68,7 +68,7 @@ def situation(
         for index, (length, angle) in enumerate(zip(given.lengths, given.angles, strict=True), 1)
     )
     known = all(isinstance(length, Fraction) for length in given.lengths)
-    scale = "" if known else " A length is not known, so no figure of it is to scale."
+    scale = "" if known else " Figures of it are not to scale, since a length is not known."
     return (
         Paragraph(
             f"An arm with {len(rows)} link{'s' * (len(rows) > 1)} moves in the plane; {base}. Link $i$ has the length "
