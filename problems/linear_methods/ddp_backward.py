@@ -82,7 +82,7 @@ def draw(level: int, rng: Draws) -> Given:
         if all(missing.values()) and not _settles(robot, system):
             break
     n = len(system["state"])
-    steepest = 3 if level < 3 else 5
+    steepest = 3 if level < 3 else 7
     hessian = tuple(tuple(-rng.whole(1, steepest) if i == j else Fraction(0) for j in range(n)) for i in range(n))
     gradient = []
     for name in robot.dynamics:
