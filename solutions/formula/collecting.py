@@ -10,7 +10,7 @@ from sympy import Add, Expr, Mul, Pow, Rational
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.leaves import Leaf
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.formula.putting_in import evaluated
+from rldrill.solutions.formula.putting_in import evaluated, is_below
 
 #: A number, and the letters, logarithms of primes and unknowns that it is multiplied by.
 _Term = tuple[Rational, tuple[Expr, ...]]
@@ -44,15 +44,11 @@ def is_quotient(expression: Expr) -> bool:
 
 def _quotient(expression: Expr) -> tuple[Expr, list[Expr]]:
     """What stands above the line, and the factors below it."""
-    below = [factor.args[0] for factor in Mul.make_args(expression) if _is_below(factor)]
+    below = [factor.args[0] for factor in Mul.make_args(expression) if is_below(factor)]
     if not below or isinstance(expression, Node):
         return expression, []
-    above = [factor for factor in Mul.make_args(expression) if not _is_below(factor)]
+    above = [factor for factor in Mul.make_args(expression) if not is_below(factor)]
     return (Mul._from_args(above) if len(above) > 1 else above[0] if above else sympy.S.One), below
-
-
-def _is_below(factor: Expr) -> bool:
-    return bool(factor.is_Pow and factor.args[1] == -1)
 
 
 def _side_by_side(factors: Sequence[Expr]) -> Expr | None:

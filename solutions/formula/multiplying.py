@@ -82,10 +82,6 @@ def _sums(left: sympy.ImmutableMatrix, right: sympy.ImmutableMatrix) -> Expr | N
     return summed[0] if rows == columns == 1 else Blocks(rows, *summed)
 
 
-def _times(a: Expr, b: Expr) -> Expr:
-    return Mul._from_args([_put_in(a), _put_in(b)])
-
-
 def _put_in(entry: Expr) -> Expr:
     """An entry as a factor; a multiple of π stays together, as one of a root does."""
     together = entry.is_Mul and entry.is_number and not entry.could_extract_minus_sign()

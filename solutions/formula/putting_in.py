@@ -339,7 +339,7 @@ def _inner(term: Expr) -> Expr:
             terms = [_term(part) if _of_matrices(part) else _worked_out(part) for part in rest[0].args]
             return Mul(-1, Add(*terms, evaluate=False), evaluate=False)
         worked_out = [(factor, _inner(factor)) for factor in term.args]
-        kept = [_in_a_product(new) for old, new in worked_out if not (new == 1 and _is_reciprocal(old))]
+        kept = [_in_a_product(new) for old, new in worked_out if not (new == 1 and is_below(old))]
         factors = _without_ones(_worked_out_above(kept) if kept != list(term.args) else kept)
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
@@ -356,8 +356,8 @@ def _inner(term: Expr) -> Expr:
 
 def _worked_out_above(factors: list[Expr]) -> list[Expr]:
     """The factors of a quotient of numbers; where what is below the line is worked out, so is the product above it."""
-    below = [factor for factor in factors if _is_reciprocal(factor)]
-    above = [factor for factor in factors if factor != -1 and not _is_reciprocal(factor)]
+    below = [factor for factor in factors if is_below(factor)]
+    above = [factor for factor in factors if factor != -1 and not is_below(factor)]
     if not below or len(above) < 2 or not all(_is_rational(factor) for factor in factors):
         return factors
     return [*factors[: factors[0] == -1], computed(evaluated(Mul(*above, evaluate=False))), *below]
@@ -367,7 +367,8 @@ def _is_rational(factor: Expr) -> bool:
     return factor.is_commutative is not False and bool(evaluated(factor).is_Rational)
 
 
-def _is_reciprocal(factor: Expr) -> bool:
+def is_below(factor: Expr) -> bool:
+    """Whether a factor stands below the line, or is an inverse."""
     return bool(factor.is_Pow and factor.args[1] == -1)
 
 
