@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from math import log2
 from typing import Any, TypeVar
 
+import sympy
 from flint import fmpq
 
 from rldrill.problems.grammar import WHOLE_DIGITS
@@ -47,6 +48,19 @@ def rooted(value: Written) -> Written:
             "written; give shorter numbers"
         )
     return value
+
+
+def raised(exponent: sympy.Expr) -> sympy.Expr:
+    """An exponent, the power of e of which can be written down: e^(k ln n) is nᵏ, a number as long as k is large.
+
+    Raises:
+        TooLong: a logarithm in it is multiplied by too large a number.
+    """
+    for term in sympy.Add.make_args(exponent):
+        factor, rest = term.as_coeff_Mul()
+        if isinstance(rest, sympy.log) and length(rest.args[0]) * abs(factor) > _LONGEST:
+            raise _too_many_digits()
+    return exponent
 
 
 def _check(values: Iterable[Any]) -> None:

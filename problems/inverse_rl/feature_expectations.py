@@ -26,7 +26,7 @@ REVISION = 4
 class Given(Givens):
     """The features of every state that was visited, the trajectories as their states, and the discount."""
 
-    features: FeaturesField = Field(description="The features of every state.")
+    features: FeaturesField = Field(min_length=1, description="The features of every state.")
     trajectories: tuple[Annotated[tuple[Name, ...], Field(max_length=300)], ...] = Field(
         min_length=1, max_length=50, description="The trajectories, each as the list of its states."
     )

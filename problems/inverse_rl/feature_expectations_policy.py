@@ -31,7 +31,7 @@ class Given(Givens):
         min_length=1, description="For every action and state the probabilities of the next states."
     )
     policy: PolicyField = Field(description="The policy.")
-    features: FeaturesField = Field(description="The features of every state.")
+    features: FeaturesField = Field(min_length=1, description="The features of every state.")
     start: DistributionField = Field(description="The probability of every state to start in.")
     terminal: Names = Field(default=(), description="The states in which an episode ends.")
     gamma: Discount

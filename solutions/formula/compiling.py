@@ -12,7 +12,7 @@ from sympy import Expr
 
 from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, equal, largest, monomial, simplest
 from rldrill.solutions.formula.node import Node
-from rldrill.solutions.limits import rooted
+from rldrill.solutions.limits import raised, rooted
 from rldrill.solutions.matrices import is_matrix
 
 #: So many expressions are kept: a problem of its own dynamics brings its own.
@@ -98,7 +98,7 @@ def _factorial(value: Value) -> Value:
 
 
 def _exp(value: Value) -> Value:
-    power = simplest(sympy.exp(sympy.sympify(value, strict=True)))
+    power = simplest(sympy.exp(raised(sympy.sympify(value, strict=True))))
     return monomial(power) if isinstance(power, sympy.Expr) else power  # e^(ln x) is x
 
 

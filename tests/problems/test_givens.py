@@ -86,6 +86,7 @@ def test_what_is_drawn_unchecked_is_what_checking_would_make_of_it(name: str) ->
 GAIN: dict[str, Any] = {"A": [[1, 0], [0, 1]], "B": [[1], [1]], "R": 1, "P": [[-1, 0], [0, -1]]}
 LQR: dict[str, Any] = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [1], "horizon": 1}
 SENSOR = {"wet": {"rain": 1, "sun": 0}, "dry": {"rain": 0, "sun": 1}}
+STAYING = {"motion": {"x": {"a": {"a": 1}}}, "policy": {"a": {"x": 1}}, "start": {"a": 1}, "gamma": "1/2"}
 RULE: dict[str, Any] = {"prior": {"rain": "1/2", "sun": "1/2"}, "likelihood": SENSOR, "measurements": ["wet"]}
 FILTER: dict[str, Any] = {
     "belief": {"rain": 1, "sun": 0},
@@ -133,6 +134,10 @@ EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0]
         ("lqr-backward", LQR | {"horizon": 999}, "given.horizon: 999 is too large; it must be at most 100."),
         ("bayes-rule", RULE | {"prior": {"sun": 1}}, "given.prior: has 1 entry; it needs at least 2 entries."),
         ("bayes-rule", RULE | {"prior": {}}, "given.prior: is empty; it needs at least 2 entries."),
+        ("feature-expectations", {"features": {}, "trajectories": [["a"]], "gamma": 1},
+         "given.features: is empty; it needs at least 1 entry."),
+        ("feature-expectations-policy", STAYING | {"features": {}},
+         "given.features: is empty; it needs at least 1 entry."),
         ("bayes-rule", RULE | {"prior": [1, 2]}, "given.prior: must be a table, in which every name has its value."),
         ("bayes-rule", RULE | {"likelihood": {}}, "given for 'wet', which does not occur; none is known."),
         ("bayes-rule", RULE | {"prior": {"$a$": 1, "b": 0}}, "given.prior: '$a$' is no name; a name begins with"),

@@ -27,6 +27,7 @@ TOO_LONG: list[tuple[str, dict[str, Any]]] = [
         {"A": [[LONG, "1/3"], ["1/7", LONG]], "B": [["1/11"], ["1/13"]], "Q": [[1, 0], [0, 1]], "R": [[LONG]],
          "start": [1, 1], "horizon": 12},
     ),
+    ("softmax-policy", {"theta": ["ln 3"], "features": {"a": ["1e9"], "b": [2]}}),
     ("softmax-policy", {"theta": ["1" + "0" * 30], "features": {"a": [1], "b": [2]}}),
 ]  # fmt: skip
 
