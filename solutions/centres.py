@@ -58,7 +58,10 @@ def found(given: Centred, work: Work, distance: Mapping[int, Value]) -> Value:
     for number, far in distance.items():
         known = {"centre_at": {number: exact(given.centres[number - 1][0])}, "distance": {number: far}, "i": number}
         work.say(f"By $φ_{{{number}}}(s)$ the state is to the left or to the right of $c_{{{number}}}$:")
-        sides[number] = tuple(work.step(side, **known) for side in beside_a_centre())
+        sides[number] = tuple(
+            work.step(side, label=f'"to the {way}"', **known)
+            for way, side in zip(("left", "right"), beside_a_centre(), strict=True)
+        )
     common = set.intersection(*map(set, sides.values()))
     if len(common) != 1:
         raise NoSolution("the known features do not fit exactly one state")

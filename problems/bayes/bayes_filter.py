@@ -226,7 +226,7 @@ def question(given: Given) -> Question:
     several = len(given.events) > 1
     parts = []
     for number, event in enumerate(given.run, 1):
-        told = _told(event, number if several else None)
+        told = _told(event, number if several else None, moves=moves)
         if given.outcome is not None and number == 1:
             letter, share = shown(Parameter(given.left_open[0])), shown(given.outcome.probability)
             known = f"Afterwards the belief is $p({given.outcome.state}) = {share}$."
@@ -241,10 +241,10 @@ def question(given: Given) -> Question:
     return Question(blocks, tuple(parts))
 
 
-def _told(event: Event, number: int | None) -> str:
-    """What happens in a step; the number is None where there is only one."""
+def _told(event: Event, number: int | None, *, moves: bool) -> str:
+    """What happens in a step, one of which moves; the number is None where there is only one."""
     if event.action is None:
-        told = f"the sensor reads “{event.measurement}”."
+        told = f"{'no action is taken; ' if moves else ''}the sensor reads “{event.measurement}”."
     elif event.measurement is None:
         told = f"the action is “{event.action}”; nothing is measured."
     else:

@@ -18,7 +18,7 @@ from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo, label
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
-REVISION = 7
+REVISION = 8
 
 Mu = tuple[Fraction, ...]
 
@@ -80,7 +80,10 @@ def draw(level: int, rng: Draws) -> Given:
         return draw(level, rng)
     if max(share, whole - share) ** 2 * dot(way, way) + far > _FARTHEST:
         return draw(level, rng)
-    points = [(Fraction(0),) * size, _scaled(whole, way), _sum(_scaled(share, way), rest)]
+    aim = _sum(_scaled(share, way), rest)
+    if 0 in aim:  # the expert has as much of a feature as the first policy, and its gap is 0
+        return draw(level, rng)
+    points = [(Fraction(0),) * size, _scaled(whole, way), aim]
     if kind == "next":
         return _next(rng, points, rest)
     first, policy, expert = _placed(rng, points)

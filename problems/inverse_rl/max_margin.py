@@ -17,7 +17,7 @@ from rldrill.problems.parts import Number, Numbers, Part, Values
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
-REVISION = 7
+REVISION = 8
 #: Constraints that hold without slack hold with any, and some need more.
 DISTRACTORS = ("slack",)
 
@@ -93,7 +93,7 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """Two policies and two features; two or three of each; the weight from which on all constraints hold."""
     size, count = (2, 2) if level == 1 else (rng.choice((2, 3)), rng.choice((2, 3)))
-    holding = rng.chance(Fraction(1, 2))
+    holding = rng.chance(Fraction(1, 4))
     while True:
         w = tuple(rng.nonzero(-2, 3) for _ in range(size))
         expert = tuple(rng.whole(1, 6) for _ in range(size))
@@ -113,7 +113,9 @@ def draw(level: int, rng: Draws) -> Given:
                 return opened
             continue
         slack = rng.whole(1, 4)
-        if 0 not in missing and slack not in missing and len(set(missing)) == count and (max(missing) < 0) == holding:
+        told_apart = 0 not in missing and slack not in missing and len(set(missing)) == count
+        helps = max(missing) < 0 if holding else any(0 < violation < slack for violation in missing)
+        if told_apart and helps:
             return given.model_copy(update={"slack": slack})
 
 

@@ -31,7 +31,7 @@ from rldrill.problems.robots import (
 
 TITLE = "Backward step of DDP"
 SOURCE = "Tassa, Erez & Todorov 2012"
-REVISION = 5
+REVISION = 6
 
 
 class Given(System):
@@ -91,7 +91,7 @@ def draw(level: int, rng: Draws) -> Given:
         gradient.append(steep if rises else -steep)
     second_order = level == 2 or (level == 3 and rng.chance(Fraction(3, 4)))
     if level == 2 and rng.chance(Fraction(1, 2)):
-        aside = rng.fraction("1/2", "-1/2", "1")
+        aside = rng.fraction("-1/2", "1")
         system["reached"] = {name: Angle(value.number + aside) for name, value in system["state"].items()}
     return Given(**system, gradient=tuple(gradient), hessian=hessian, second_order=second_order)
 

@@ -13,7 +13,7 @@ from rldrill.problems.robots import Entries, System, discretised, drawn_robot, s
 
 TITLE = "Linearisation with a constant term"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 7
+REVISION = 8
 #: An operating point has all coordinates; what is linear in them cancels in C. Entries say what is asked.
 DISTRACTORS = ("state.*", "action.*", "entries.*")
 
@@ -72,11 +72,11 @@ def _keeps_half(system: Mapping[str, Any], step: Fraction) -> bool:
 def question(given: Given) -> Question:
     """The system and its operating point; entries of its step, or none; C; the larger matrices, or what is new."""
     n, m = len(given.state), len(given.action)
-    moved = "B̃ a_t" if given.entries is None else "(B_Δ a_t, 0)^⊤"
+    copied = "" if given.entries is None else ", where $B̃$ is $B_Δ$ with a row of zeros below it"
     then = (
         f"{discretised(given)} The linearisation of $F$ at the operating point is multiplied out, "
-        "$F(s, a) ≈ A_Δ s + B_Δ a + C$. Then the constant $1$ is made part of the state, $s̃_t = (s_t, 1)^⊤$, and $C$ "
-        f"part of a column of $Ã$, so that $s̃_{{t+1}} = Ã s̃_t + {moved}$."
+        "$F(s, a) ≈ A_Δ s + B_Δ a + C$. Then $s̃$ is the state with the constant $1$ below it, and $C$ becomes part of "
+        f"a column of $Ã$, so that $s̃_{{t+1}} = Ã s̃_t + B̃ a_t${copied}."
     )
     constant = (
         *([Part("What is $F(s̄, ā)$?", Matrix(n, 1))] if given.moved else []),

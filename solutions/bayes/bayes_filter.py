@@ -52,7 +52,7 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         before = belief = start if afresh else belief
         asked = step > 1 or given.outcome is None
         if step > 1:
-            work.say("In the next step $p$ is the belief that was found:")
+            work.say("In the next step $p$ is the belief that was found.")
         now = known | ({"label": f'"step" {step}'} if len(given.run) > 1 else {})
         belief = settled if not asked and settled else _moves(event, work, moves, belief, now)
         if asked:

@@ -33,22 +33,22 @@ def solve(given: Given, work: Work) -> None:
         work.recall(BAYES)
         work.say("For two hypotheses, $h_1$ and $h_2$, this is:")
         work.recall(BAYES_TWO_STATES)
-    readings = given.measurements
+    readings = list(enumerate(given.measurements, 1))
+    labels = {place: f'"measurement" {place}' if len(readings) > 1 else None for place, _ in readings}
     if given.outcome is not None:
         state, letter = given.outcome.state, given.left_open[0]
-        known: dict[str, Any] = {"z": readings[0], "hypotheses": hypotheses}
+        known: dict[str, Any] = {"z": given.measurements[0], "hypotheses": hypotheses, "label": labels[1]}
         after = work.step(BAYES, h=state, p=belief, likelihood=likelihood, **known)
         found = work.answer(work.equate(letter, after, exact(given.outcome.probability)))
         belief, likelihood = knowns.settled(belief, found), knowns.settled(likelihood, found)
         if len(readings) > 1:
             belief = _first(given, work, letter, {**known, "p": belief, "likelihood": likelihood})
-            work.say(f"The next measurement, {readings[1]}, gives:")
         readings = readings[1:]
-    for place, reading in enumerate(readings):
-        if place:
+    for place, reading in readings:
+        if place > 1:
             work.say(f"For the next measurement, {reading}, $p(h)$ is the belief that was found:")
-        now = {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses}
-        posterior = _posterior(work, now, f'"measurement" {place + 1}' if len(readings) > 1 else None)
+        now = {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses, "label": labels[place]}
+        posterior = _posterior(work, now)
         work.picture(before_and_after, belief, posterior)
         belief = work.answer(posterior)
 
@@ -68,15 +68,15 @@ def _first(given: Given, work: Work, letter: str, known: dict[str, Any]) -> dict
     return belief
 
 
-def _posterior(work: Work, known: dict[str, Any], label: str | None = None) -> dict[str, Value]:
+def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:
     """Hypothesis by hypothesis; where there are many, what stands below the line is worked out once."""
     hypotheses, z = known["hypotheses"], known["z"]
     if len(hypotheses) <= LONG or z in hypotheses or work.misreads(BAYES):
-        return {h: work.step(BAYES, h=h, label=label, **known) for h in hypotheses}
+        return {h: work.step(BAYES, h=h, **known) for h in hypotheses}
     work.reading(BAYES)  # it is read, though written with p(z) here: so its misreadings can be made
-    below = work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, label=label, **known)
+    below = work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, **known)
     known = known | {"p": known["p"] | {z: below}}
-    return {h: work.step(BAYES, right=BAYES_BY_READING, h=h, label=label, **known) for h in hypotheses}
+    return {h: work.step(BAYES, right=BAYES_BY_READING, h=h, **known) for h in hypotheses}
 
 
 def oracle(given: Given) -> Answers:

@@ -1,4 +1,4 @@
-"""The inverse of a 2×2 matrix in a step, as it is worked out by hand: the adjugate over the determinant."""
+"""An inverse in a step, as it is worked out by hand: one over a number, the adjugate over the determinant."""
 
 import sympy
 from sympy import Expr, Mul
@@ -7,7 +7,7 @@ from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, computed
 
 
 def inverted(expression: Expr) -> Expr:
-    """The expression with the adjugate over the determinant in the place of the inverse of a 2×2 matrix."""
+    """The expression with what is worked out in the place of the inverse of a number or of a 2×2 matrix."""
     if expression.is_Add:
         return expression.func(*map(inverted, expression.args), evaluate=False)
     factors = Mul.make_args(expression)
@@ -17,9 +17,11 @@ def inverted(expression: Expr) -> Expr:
     kept: list[Expr] = []
     for factor in factors:
         if _is_inverse(factor):
-            (a, b), (c, d) = factor.args[0].args[0].tolist()
-            number = number / sympy.radsimp(a * d - b * c)
-            kept.append(MatrixLeaf([[d, -b], [-c, a]]))
+            matrix = factor.args[0].args[0]
+            number = number / sympy.radsimp(matrix.det())
+            if matrix.rows == 2:
+                (a, b), (c, d) = matrix.tolist()
+                kept.append(MatrixLeaf([[d, -b], [-c, a]]))
         elif factor == -1:
             number = -number
         else:
@@ -29,8 +31,8 @@ def inverted(expression: Expr) -> Expr:
 
 
 def _is_inverse(factor: Expr) -> bool:
-    """Whether this is the inverse of a 2×2 matrix of numbers."""
+    """Whether this is the inverse of a 1×1 or 2×2 matrix of numbers."""
     if not (factor.is_Pow and factor.args[1] == -1 and isinstance(factor.args[0], MatrixLeaf)):
         return False
     matrix = factor.args[0].args[0]
-    return bool(matrix.shape == (2, 2) and not matrix.free_symbols and matrix.det() != 0)
+    return bool(matrix.shape in ((1, 1), (2, 2)) and not matrix.free_symbols and matrix.det() != 0)

@@ -9,7 +9,14 @@ from rldrill.solutions.formula.common_denominator import brackets_in_one_fractio
 from rldrill.solutions.formula.inverting import inverted
 from rldrill.solutions.formula.multiplying import entry_by_entry, multiplied_out
 from rldrill.solutions.formula.nested import inner_brackets_first
-from rldrill.solutions.formula.putting_in import long_sum, reduced, term_by_term, without_slots
+from rldrill.solutions.formula.putting_in import (
+    ANGULAR,
+    long_sum,
+    reduced,
+    term_by_term,
+    with_vanishing_sines,
+    without_slots,
+)
 
 
 def lines_between(put_in: Expr, *, own: bool) -> Iterator[Expr]:
@@ -19,6 +26,9 @@ def lines_between(put_in: Expr, *, own: bool) -> Iterator[Expr]:
         put_in: the right side with its numbers put in.
         own: whether it is the problem's own, a derivative of its dynamics, of which every term is worked out.
     """
+    sines = with_vanishing_sines(put_in)
+    if sines is not None:
+        yield sines
     plain = without_slots(put_in)
     short = term_by_term(reduced(put_in)) if own else reduced(put_in)
     without_inverse = inverted(short)
@@ -32,6 +42,8 @@ def lines_between(put_in: Expr, *, own: bool) -> Iterator[Expr]:
     yield short
     yield without_inverse
     yield from products
+    if put_in.has(*ANGULAR):
+        yield reduced(short)
     added = (
         brackets_in_one_fraction(short),
         in_one_fraction(short),

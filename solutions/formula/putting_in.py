@@ -24,7 +24,7 @@ from rldrill.solutions.formula.nodes.leaves import (
 )
 
 Known = Mapping[str, Any]
-_ANGULAR = (sympy.sin, sympy.cos, sympy.tan)
+ANGULAR = (sympy.sin, sympy.cos, sympy.tan)
 
 
 class PutIn:
@@ -280,14 +280,14 @@ def _plain_powers(expression: Expr) -> Expr:
     if isinstance(expression, sympy.exp):
         value = evaluated(expression)
         return computed(value) if value.is_rational_function(*value.free_symbols) else expression
-    if isinstance(expression, _ANGULAR):
+    if isinstance(expression, ANGULAR):
         value = evaluated(expression)
         if not value.is_algebraic:
             return expression
         return Factor(value) if value.is_Mul and not value.could_extract_minus_sign() else computed(value)
     if isinstance(expression, Node):
         return expression._plain(_plain_powers)
-    if not expression.has(sympy.exp, *_ANGULAR):
+    if not expression.has(sympy.exp, *ANGULAR):
         return expression
     arguments = map(_plain_powers, expression.args)
     if expression.is_Add:
@@ -295,6 +295,22 @@ def _plain_powers(expression: Expr) -> Expr:
     if expression.is_Mul:
         return product_of(arguments)
     return power_of(*arguments) if expression.is_Pow else expression
+
+
+def with_vanishing_sines(expression: Expr) -> Expr | None:
+    """The step with numbers for its sines and cosines, if one of them is 0, and a slot for each; else None."""
+    if isinstance(expression, Node) or not any(evaluated(angular) == 0 for angular in expression.atoms(*ANGULAR)):
+        return None
+    return _in_slots(expression)
+
+
+def _in_slots(expression: Expr) -> Expr:
+    if isinstance(expression, Node) or not expression.args:
+        return expression
+    if isinstance(expression, ANGULAR):
+        return _plain_powers(expression)
+    arguments = list(map(_in_slots, expression.args))
+    return expression._from_args(arguments) if expression.is_Add or expression.is_Mul else expression
 
 
 def _reduced(expression: Expr) -> Expr:

@@ -51,7 +51,10 @@ def solve(given: Given, work: Work, places: Callable[[Given, str], range] = _own
     else:
         work.say("The two values are equal where")
     threshold = work.equate("w", raised["s", given.raised], values[best[0]])
-    work.say(f"The value of {given.raised} grows with $w$: above this $w$ it is greedy.")
+    work.say(
+        f"The feature that $w$ weighs is positive, so the value of {given.raised} grows with $w$: above this $w$ it is "
+        "greedy."
+    )
     work.answer(threshold)
 
 

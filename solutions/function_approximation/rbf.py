@@ -1,18 +1,13 @@
 """The distance from every centre, then its bump; or backwards, from known features. Exponentials stay as they are."""
 
 from collections.abc import Mapping
-from functools import partial
 from typing import Any
-
-from sympy import Expr
 
 from rldrill.problems.function_approximation.rbf import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.centres import distances, found, measured, nearest, value_of_state
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import Formula
-from rldrill.solutions.formula.putting_in import put_in
-from rldrill.solutions.found import Later
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
@@ -57,17 +52,10 @@ def _solved(
 ) -> dict[int, Value]:
     """What the equation of every feature that is known gives for the one thing in it that is not."""
     work.recall(RBF)
-    work.say(f"The logarithm of both sides, solved for {sought}:")
-    values = {}
-    for number, logarithm in logarithms.items():
-        work.lines.append(Later(partial(_logarithms, logarithm, {**known, "i": number})))
-        values[number] = work.step(formula, i=number, **known)
-    return values
-
-
-def _logarithms(logarithm: Value, known: dict[str, Any]) -> tuple[Value, Expr]:
-    """The logarithms of both sides of the equation of a feature."""
-    return logarithm, put_in(logarithm_of_rbf().right, known)
+    work.say("The logarithm of both sides:")
+    work.recall(logarithm_of_rbf())
+    work.say(f"Solved for {sought}:")
+    return {number: work.step(formula, i=number, **known) for number in logarithms}
 
 
 def oracle(given: Given) -> Answers:

@@ -35,10 +35,11 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
-    for number, mu in enumerate(policies):
-        known |= {"mu_now": mu, "mu_bar": point}
+    several = len(policies) + bool(given.candidates and given.projected) > 1
+    for number, mu in enumerate(policies, 1):
+        known |= {"mu_now": mu, "mu_bar": point, "label": f"π_{{{number}}}" if several else None}
         length = _length(work, known)
-        if not number and not given.candidates:
+        if number == 1 and not given.candidates:
             length = work.answer(length)
         moved = work.answer(_moved(work, features, known, length))
         point = dict(zip(features, moved, strict=True))
@@ -48,7 +49,7 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     if given.candidates:
         mu = _next(given.candidates, work, weights)
     if given.candidates and given.projected:
-        known |= {"mu_now": mu, "mu_bar": point}
+        known |= {"mu_now": mu, "mu_bar": point, "label": f"π_{{{len(policies) + 1}}}"}
         moved = work.answer(_moved(work, features, known, _length(work, known)))
         point = dict(zip(features, moved, strict=True))
         known["mu_bar"] = weighed_from(point, mu)

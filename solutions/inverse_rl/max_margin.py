@@ -11,7 +11,7 @@ from rldrill.solutions.exact import ZERO, exact, largest, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
+from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, MAX_MARGIN_BOUND, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
 from rldrill.solutions.work import Work
 
 
@@ -30,7 +30,8 @@ def solve(given: Given, work: Work) -> None:
         return
     worth = dict(zip(worth, work.answer(tuple(worth.values())), strict=True))
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
-    work.say(f"For each constraint, with $ξ = {shown(given.slack)}$, the right side is compared with the left side:")
+    work.recall(MAX_MARGIN)
+    work.say(f"With $ξ = {shown(given.slack)}$ the right side of each constraint is:")
     holding = sum([_holds(work, name, sides, exact(given.slack)) for name in given.policies])
     count = f"{holding or 'none'} of the {len(given.policies)} constraints {'hold' if holding > 1 else 'holds'}"
     work.say(f"So {count}.")
@@ -38,7 +39,7 @@ def solve(given: Given, work: Work) -> None:
     violated = tuple(
         name
         for name in given.policies
-        if sign(worth[EXPERT] - work.value(MAX_MARGIN, policy=name, xi=ZERO, **sides)) < 0
+        if sign(worth[EXPERT] - work.value(MAX_MARGIN_BOUND, policy=name, xi=ZERO, **sides)) < 0
     )
     slack = work.answer(work.step(SLACK, policies=tuple(given.policies), violated=violated, **sides))
     if not violated and slack == 0:
@@ -47,18 +48,11 @@ def solve(given: Given, work: Work) -> None:
 
 def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margins: dict[str, Any]) -> None:
     """The open weight at which each constraint holds with equality; the greatest of these is enough for all."""
+    work.recall(MAX_MARGIN)
+    work.say("With $ξ = 0$ the right side of each constraint is:")
     least = {}
     for name in given.policies:
-        right = work.step(
-            MAX_MARGIN,
-            policy=name,
-            worth=worth,
-            worth_expert=worth[EXPERT],
-            margin=margins,
-            xi=ZERO,
-            sign="≥",
-            label=f'"{name}"',
-        )
+        right = work.step(MAX_MARGIN_BOUND, policy=name, worth=worth, margin=margins, xi=ZERO)
         work.say("Both sides are equal for:")
         least[name] = work.equate(letter, worth[EXPERT], right)
     least = work.answer(least)
@@ -77,9 +71,9 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
 def _holds(work: Work, name: str, sides: dict[str, Any], slack: fmpq) -> bool:
     known = sides | {"policy": name, "xi": slack}
     left = sides["worth_expert"]
-    holds = sign(left - work.value(MAX_MARGIN, **known)) >= 0
+    right = work.step(MAX_MARGIN_BOUND, **known)
+    holds = sign(left - right) >= 0
     relation = "≥" if holds else "<"
-    right = work.step(MAX_MARGIN, sign=relation, label=f'"{name}"', **known)
     compared = f"$w^⊤ μ(π_E) = {shown(left)} {relation} {shown(right)}$"
     work.say(f"{compared}: this constraint {'holds' if holds else 'is violated'}.")
     return holds

@@ -13,6 +13,7 @@ from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     DDP,
+    DDP_GREATEST,
     INPUT_JACOBIAN,
     K_WITH_PLUS,
     SECOND_DERIVATIVE,
@@ -41,6 +42,8 @@ def _maximum(given: Given, work: Work, Q: Mapping[str, AnyMatrix]) -> None:
     formulas, of = _formulas(given), "Q_{a a}"
     negative = f"${of} < 0$" if len(given.action) == 1 else f"${of}$ is negative definite"
     work.say(f"{negative}: where the derivative with respect to the action is $0$, $Q$ is greatest.")
+    work.recall(DDP_GREATEST)
+    work.say("Solved for $a$, with $k$ for what does not depend on $s$ and $K$ for what stands at $s − s̄$:")
     work.recall(DDP)
     k = work.answer(_applied(given, work, formulas.change, Q))
     K = work.answer(_applied(given, work, formulas.gain, Q))
@@ -101,7 +104,9 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
             "In second derivatives $ξ$ stands for state and action together: $ξ_j$ and $ξ_k$ are any two of its "
             "entries."
         )
-    work.say("The other second derivatives of $r$ are $0$.")
+    work.say(
+        f"Second derivatives of {'$r$ and $f$' if given.second_order else '$r$'} that are not written down are $0$."
+    )
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:
         work.say(f"iLQR leaves out the {'products' if scalar else 'sums'} with the second derivatives of $f$.")

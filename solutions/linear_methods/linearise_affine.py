@@ -37,6 +37,8 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
     f_bar = moved_point(given, work, s_bar, rates(work, given))
     if given.moved:
         f_bar = work.answer(f_bar)
+    work.recall(affine_step().linear)
+    work.say("What holds neither $s$ nor $a$ is $C$:")
     _augmented(given, work, A, B, work.step(affine_step().constant, Fbar=f_bar, Ad=A, Bd=B, sbar=s_bar, abar=a_bar))
 
 

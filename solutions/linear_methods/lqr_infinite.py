@@ -53,19 +53,30 @@ def solve(given: Given, work: Work) -> None:
         L = work.answer(work.step(formulas.gain, **system))
     letters = {f"{given.notation.gain}i": L}
     closed = work.step(formulas.closed_loop, Ai=regulator.A, Bi=regulator.B, **letters)
-    if work.misconception is None and (factors := _factors(regulator, closed)) is not None:
+    if work.misconception is None and (factors := _factors(work, given, regulator, L, closed)) is not None:
         work.say(lambda: _goes_to_zero(given, factors))
     work.answer(closed)
 
 
-def _factors(regulator: Regulator, closed: AnyMatrix) -> tuple[Value, ...] | None:
+def _factors(
+    work: Work, given: Given, regulator: Regulator, L: AnyMatrix, closed: AnyMatrix
+) -> tuple[Value, ...] | None:
     """What the closed loop multiplies the state with, or each of its modes."""
     if closed.nrows() == 1:
         return (closed[0, 0],)
     modes = _modes(regulator)
     if modes is None or not _is_diagonal(looped := modes.in_modes(closed)):
         return None
-    return tuple(looped[i, i] for i in range(looped.nrows()))
+    if modes.kind is Modes.ENTRIES:
+        return tuple(looped[i, i] for i in range(looped.nrows()))
+    system, hat = _system(given, modes.kind), modes.in_modes(L)
+    return tuple(
+        work.step(
+            system.closed_loop,
+            **system.letters.known(mode, **modes.numbers(mode), gain=hat[mode - 1, mode - 1]),
+        )
+        for mode in modes.counted
+    )
 
 
 def _goes_to_zero(given: Given, factors: tuple[Value, ...]) -> str:
@@ -362,6 +373,8 @@ def _back(work: Work, modes: _Modes, head: str, entries: list[Value]) -> AnyMatr
 
 def _in_decimals(work: Work, given: Given, regulator: Regulator) -> AnyMatrix:
     """The matrix itself, where it is rational; else to twelve decimals, with what is left over in its equation."""
+    if not all(is_rational(entry) for matrix in regulator[:5] for entry in matrix.entries()):
+        raise NoSolution("a letter may be left open only in a system that is scalar, or falls apart into scalar ones")
     found, P = stationary(regulator), given.notation.value
     sign = 1 if given.notation.costs else -1
     simple = matrices.matrix([_simple(entry) for entry in line] for line in found.tolist())

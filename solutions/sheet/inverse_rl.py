@@ -80,6 +80,7 @@ worth = quantity("worth", lambda of: row(Script(variable("w"), above=word("T")),
 worth_expert = letter("worth_expert", row(Script(variable("w"), above=word("T")), _MU, Fence(_EXPERT)))
 margin = quantity("margin", lambda of: row(variable("m"), Fence(listed((_EXPERT, of)))))
 xi = letter("xi", "ξ")
+bound = quantity("bound", lambda of: row(variable("b"), Fence(of)))
 step_length = letter("step_length", "c")
 remaining = letter("remaining", Fence(variable("w"), "‖", "‖"))
 
@@ -184,6 +185,15 @@ with evaluate(False):
         source="Ratliff, Bagnell & Zinkevich 2006",
         hint="The expert must be better than every policy by the margin, or the slack ξ has to make up for it.",
         sign="≥",
+    )
+    MAX_MARGIN_BOUND = Formula(
+        "max-margin-bound",
+        bound(policy),
+        worth(policy) + margin(policy) - xi,
+        title="Max-margin constraint: its right side",
+        source="Ratliff, Bagnell & Zinkevich 2006",
+        hint="The other policy's value, and the margin, less the slack.",
+        place=Place.WORKING,
     )
     SUM_FOR_MAXIMUM = Misconception(
         "sum-for-maximum",

@@ -392,7 +392,7 @@ def back_from_modes(head: str) -> Formula:
 
 
 class Letters(NamedTuple):
-    """The numbers of a scalar system, or of mode i: those of its dynamics and costs, what is found, and β."""
+    """The numbers of a scalar system, or of mode i: dynamics and costs, what is found, β, and the closed loop."""
 
     A: Expr
     B: Expr
@@ -402,6 +402,7 @@ class Letters(NamedTuple):
     value: Expr
     gain: Expr
     beta: Expr
+    loop: Expr
 
     def known(self, mode: int, **numbers: Any) -> dict[str, Any]:
         """Numbers as the formulas take them, by the names of the fields."""
@@ -423,14 +424,21 @@ class Modes(Enum):
 def _letters_of(notation: Notation, modes: Modes) -> Letters:
     if modes is Modes.NONE:
         value, gain = (letter(f"{glyph}k", glyph) for glyph in (notation.value, notation.gain))
-        return Letters(a1, b1, q1, r1, n1, value, gain, beta)
+        return Letters(a1, b1, q1, r1, n1, value, gain, beta, closed)
+
+    def head(glyph: str) -> Math:
+        hat = modes is Modes.SUM_AND_DIFFERENCE and glyph != "β"
+        return Accent(variable(glyph), "hat") if hat else variable(glyph)
 
     def numbered(glyph: str) -> Expr:
-        hat = modes is Modes.SUM_AND_DIFFERENCE and glyph != "β"
-        head = Accent(variable(glyph), "hat") if hat else variable(glyph)
-        return quantity(f"{glyph}{'hat' if hat else 'entry'}", subscripted(head))(i)
+        return quantity(f"{glyph}{modes.name}", subscripted(head(glyph)))(i)
 
-    return Letters(*map(numbered, ("A", "B", "Q", "R", "N", notation.value, notation.gain, "β")))
+    def looped(index: Math) -> Math:
+        return Script(head("A"), row(variable(notation.gain), punctuation(","), index))
+
+    loop = quantity(f"loop{notation.gain}{modes.name}", looped)(i)
+    glyphs = ("A", "B", "Q", "R", "N", notation.value, notation.gain, "β")
+    return Letters(*[*map(numbered, glyphs), loop])
 
 
 class ScalarSystem(NamedTuple):
@@ -446,13 +454,14 @@ class ScalarSystem(NamedTuple):
     quadratic: Expr
     root: Formula
     gain: Formula
+    closed_loop: Formula
 
 
 @cache
 def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes: Modes = Modes.NONE) -> ScalarSystem:
     """The scalar problem in the letters of one convention, or in those of a mode."""
     letters = _letters_of(notation, modes)
-    A, B, Q, R, N, P, L, b = letters
+    A, B, Q, R, N, P, L, b, loop = letters
     plain, costs = not (notation.costs or discounted or crossed), notation.costs
     own = plain and modes is Modes.NONE
     with evaluate(False):
@@ -502,6 +511,7 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
                 note="",
             ),
             replace(LQR_STATIONARY_GAIN, left=L, right=best, misread=cost_to_go),
+            replace(LQR_CLOSED_LOOP, left=loop, right=A - B * L),
         )
 
 
@@ -590,6 +600,7 @@ f_alone = quantity("fAlone", lambda _: row(variable("f"), _POINT))  # where f ha
 f_at = letter("fat", row(variable("f"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
 f_bar = letter("fbar", row(variable("f"), _POINT), matrix=True)
 F_bar = letter("Fbar", row(variable("F"), _POINT), matrix=True)
+F_at = letter("Fat", row(variable("F"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
 grad_s, grad_a = letter("gradS", _gradient("s"), matrix=True), letter("gradA", _gradient("a"), matrix=True)
 sv, av = letter("sv", "s", matrix=True), letter("av", "a", matrix=True)
 s_bar, a_bar = letter("sbar", _bar("s"), matrix=True), letter("abar", _bar("a"), matrix=True)
@@ -714,8 +725,9 @@ with evaluate(False):
 
 
 class AffineStep(NamedTuple):
-    """The affine form of a discretised system: the constant, and the matrices for the state (s, 1)."""
+    """The affine form of a discretised system: what is multiplied out, its constant, the matrices for (s, 1)."""
 
+    linear: Formula
     constant: Formula
     state: Formula
     action: Formula
@@ -726,6 +738,7 @@ def affine_step() -> AffineStep:
     """The affine form in the letters of a step: F for f, and its derivatives for A and B."""
     with evaluate(False):
         return AffineStep(
+            replace(LINEARISE, left=F_at, right=F_bar + Ad * (sv - s_bar) + Bd * (av - a_bar)),
             replace(AFFINE_TERM, right=F_bar - Ad * s_bar - Bd * a_bar, misread={C_IS_F: F_bar}),
             replace(AUGMENTED_A, right=Blocks(2, Ad, Cc, 0, 1)),
             replace(AUGMENTED_B, right=Blocks(2, Bd, 0)),
@@ -838,6 +851,7 @@ derived_at = quantity(
 )
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
+ZERO_DERIVATIVE = letter("zeroDerivative", Glyph("0", "number"), matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, with rewards for costs"
 
 with evaluate(False):
@@ -908,6 +922,15 @@ with evaluate(False):
         place=Place.BEYOND,
     )
     K_WITH_PLUS = Misconception("uphill-sign", "At the maximum Qₐ + Qₐₐ δa = 0, so k = −Qₐₐ⁻¹ Qₐ: with its minus sign.")
+    DDP_GREATEST = Formula(
+        "ddp-greatest",
+        ZERO_DERIVATIVE,
+        Q_a + Q_as * (sv - s_bar) + Q_aa * (av - a_bar),
+        title="DDP: where Q is greatest in the action",
+        source=_DDP,
+        hint="Differentiate the quadratic Q with respect to a.",
+        place=Place.WORKING,
+    )
     DDP_k = Formula(
         "ddp-k",
         kd,

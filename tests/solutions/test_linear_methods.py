@@ -140,6 +140,18 @@ def test_a_system_that_cannot_be_held_is_refused(A: Any, Q: Any) -> None:
         solved("lqr-infinite", A=A, B=[[0], [1]], Q=Q, R=[[1]])
 
 
+def test_a_letter_is_left_open_in_a_system_that_falls_apart_but_in_no_other() -> None:
+    """With A = B = R = 1 the equation is P² + QP − Q = 0: P = −(x + √(x² + 4x))/2 for x, and −1 for a half."""
+    unit = [[1, 0], [0, 1]]
+    answers = solved("lqr-infinite", A=unit, B=unit, Q=[["x", 0], [0, "1/2"]], R=unit)
+    P = to_sympy(answers["a"][0, 0])
+    (x,) = P.free_symbols
+    assert sympy.simplify(P + (x + sympy.sqrt(x**2 + 4 * x)) / 2) == 0
+    assert answers["a"][1, 1] == -1
+    with pytest.raises(FileError, match="a letter may be left open only in a system that is scalar"):
+        solved("lqr-infinite", A=[[2, 1], [1, 2]], B=unit, Q=[["x", 0], [0, 1]], R=unit)
+
+
 POINT = {
     "dynamics": {"x": "a*x + b*u"},
     "constants": {"a": 3, "b": "1/2"},
@@ -586,8 +598,8 @@ def test_entries_of_the_step_are_asked_for_before_the_constant_and_then_the_new_
             assert entries(answers[column.label]) == [*entries(answers[constant.label]), 1]
             assert entries(answers[column.label])[size] == 1
             text = " ".join(str(exercise.question()).split())
-            assert "B̃" not in text
-            assert "the constant 1 is made part of the state" in text
+            assert "B̃ is B_Δ with a row of zeros below it" in text
+            assert "s̃ is the state with the constant 1 below it" in text
 
 
 def test_a_price_that_is_found_is_put_into_the_reward() -> None:
