@@ -29,7 +29,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 6
+REVISION = 7
 
 #: How far above its bound the reward is that policy iteration goes on with.
 _ABOVE = tuple(range(1, 13))
@@ -105,7 +105,7 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
         return _draw_threshold(gamma, rng)
     shape = Shape(states=2, actions=3 if level == 1 else 2 + rng.below(2), branches=level, denominators=(2,))
     optimal = rng.chance(Fraction(1, 2))
-    others = (-4, -1) if level == 1 and optimal else (-2, 2)
+    others = {1: (-4, -1), 2: (-2, 2)}[level] if optimal else (-1, 3)  # what is better than the policy's own
     while True:
         mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
         if _looks_ahead(mdp, values, gamma) and _settles(mdp, policy, gamma, level) == optimal:
