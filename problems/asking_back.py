@@ -10,8 +10,18 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import PARAMETERS, Exact, Parameter, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Number, Part
-from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, ActionUpdates, Trajectory, after, draw_action_run
+from rldrill.problems.parts import Number, Part, Values
+from rldrill.problems.phrases import in_open
+from rldrill.problems.runs import (
+    ActionMove,
+    ActionMoves,
+    ActionRun,
+    ActionUpdates,
+    Trajectory,
+    after,
+    draw_action_run,
+    errors_asked,
+)
 from rldrill.problems.settings import Setting, draw_moves
 
 Rows = dict[str, dict[str, Fraction]]
@@ -222,6 +232,21 @@ def back_asked(given: AskingBack, outcome: Outcome, table: Rows, of: str = "Q") 
         return Part(f"For which {sought} are {pair} equal {after(given)}?", Number())
     ask = f'{after(given).capitalize()} ${of}("{state}", "{action}") = {shown(value)}$. What is the {sought}?'
     return Part(ask, Number())
+
+
+def pairs_asked(given: BackRun | BackMoves, *, errors: bool = False) -> tuple[Part, ...]:
+    """What is asked of updated action values: the number that is left open, or the value of every updated pair.
+
+    Args:
+        given: the run.
+        errors: whether the TD errors are asked for first.
+    """
+    if given.outcome:
+        return (back_asked(given, given.outcome, given.values),)
+    pairs = given.updated
+    asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every updated pair"
+    values = Part(f"What is {asked} {after(given)}{in_open(given)}?", Values("Q", pairs))
+    return (errors_asked(given), values) if errors else (values,)
 
 
 #: What is asked for, by its parameter.

@@ -4,15 +4,14 @@ from typing import Annotated, Any, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from rldrill.problems.asking_back import BackRun, Worth, back_asked, draw_back, draw_forward, updates_of
+from rldrill.problems.asking_back import BackRun, Worth, draw_back, draw_forward, pairs_asked, updates_of
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter, dot
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import PolicyField, check_chances, check_keys, policy_table
-from rldrill.problems.parts import Part, Values
-from rldrill.problems.phrases import exploration, in_open, not_known
+from rldrill.problems.phrases import exploration, not_known
 from rldrill.problems.runs import action_values_table, run_blocks
 from rldrill.problems.settings import draw_setting
 
@@ -123,14 +122,7 @@ def _greedily(epsilon: Fraction) -> Worth:
 def question(given: Given) -> Question:
     """The run, the table before it and the policy; all updated pairs are asked for."""
     blocks = (*run_blocks(given, action_values_table(given.values), "Expected Sarsa"), *_policy(given))
-    if given.outcome:
-        return Question(blocks, (back_asked(given, given.outcome, given.values),))
-    pairs = given.updated
-    asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every updated pair"
-    return Question(
-        blocks,
-        (Part(f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
-    )
+    return Question(blocks, pairs_asked(given))
 
 
 def _policy(given: Given) -> tuple[Block, ...]:

@@ -5,18 +5,14 @@ from typing import Annotated, Any
 
 from pydantic import Tag
 
-from rldrill.problems.asking_back import BackMoves, BackRun, back_asked, draw_back, draw_forward, updates_of
+from rldrill.problems.asking_back import BackMoves, BackRun, draw_back, draw_forward, pairs_asked, updates_of
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.parts import Part, Values
-from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import (
     RUN_OR_MOVES,
     AskErrors,
     action_values_table,
-    after,
-    errors_asked,
     run_blocks,
 )
 from rldrill.problems.settings import draw_setting
@@ -89,14 +85,4 @@ def _ahead(row: Mapping[str, Fraction], _: str) -> Fraction:
 def question(given: Given) -> Question:
     """The run and the table before it; all updated pairs are asked for."""
     blocks = run_blocks(given, action_values_table(given.values), "Q-learning")
-    if given.outcome:
-        return Question(blocks, (back_asked(given, given.outcome, given.values),))
-    pairs = given.updated
-    asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every updated pair"
-    return Question(
-        blocks,
-        (
-            *([errors_asked(given)] if given.td_errors else []),
-            Part(f"What is {asked} {after(given)}{in_open(given)}?", Values("Q", pairs)),
-        ),
-    )
+    return Question(blocks, pairs_asked(given, errors=given.td_errors))
