@@ -23,8 +23,7 @@ from rldrill.solutions.diagnosis.outcomes import Outcomes
 from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
 from rldrill.solutions.diagnosis.search import Search
-from rldrill.solutions.diagnosis.typed import Typed, approximate
-from rldrill.solutions.drawing import distinguishable
+from rldrill.solutions.diagnosis.typed import Typed, approximate, may_mean
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.solution import Solution
@@ -196,12 +195,13 @@ class Diagnosing:
             self._thread.join()
             self._thread = None
 
-    def unmasked(self, label: str, text: str, verdict: Verdict) -> Verdict:
+    def unmasked(self, label: str, text: str, verdict: Verdict, settled: Mapping[str, Any] | None = None) -> Verdict:
         """The verdict itself; but what is close to the key by accident, since something is missing, is wrong."""
         if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
             return verdict
         self.finish()
-        found = explained(self.outcomes(label, {}), self._typed(label, text), Clock())  # a verdict depends on no clock
+        clock = Clock()  # a verdict depends on none
+        found = explained(self.outcomes(label, {}), self._typed(label, text), clock, settled)
         pairs = zip(found.causes, found.shares, strict=True)
         if sum(share for cause, share in pairs if cause.weight >= SURE_ENOUGH) < _SURE:
             return verdict
@@ -227,8 +227,8 @@ class Diagnosing:
             if len(found) == number:
                 break
             with suppress(*UNDONE):
-                if outcomes.cells_of(candidate.answers) and distinguishable(
-                    self.solution, {label: candidate.answers[label]}
+                if outcomes.cells_of(candidate.answers) and self.solution.tells_apart(
+                    {label: candidate.answers[label]}
                 ):
                     said = _diagnosis(candidate.cause, search.applications, 1.0)
                     text = kind.write(candidate.answers[label])
@@ -249,6 +249,7 @@ class Diagnosing:
         verdict: Verdict,
         earlier: Mapping[str, Any] | None = None,
         seconds: float | None = None,
+        settled: Mapping[str, Any] | None = None,
     ) -> Diagnosis:
         """What the answer to a part comes from.
 
@@ -256,8 +257,9 @@ class Diagnosing:
             label: the part.
             text: what was typed.
             verdict: how it was judged.
-            earlier: the person's own answers to earlier parts.
+            earlier: the person's own wrong answers to earlier parts.
             seconds: the time to search; without end if None.
+            settled: the earlier answers that were right, and so deny whatever would have spoilt them.
         """
         if verdict.outcome is Outcome.UNREADABLE:
             return Diagnosis("unreadable", verdict.says)
@@ -270,7 +272,7 @@ class Diagnosing:
         clock = Clock(seconds)
         gone_on = [earlier] if earlier and self.solution.following(earlier) else []  # from some nothing follows
         for carried in ({}, *gone_on):
-            found = explained(self.outcomes(label, carried), typed, clock)
+            found = explained(self.outcomes(label, carried), typed, clock, settled)
             if found.causes:
                 return _told(found, self.search(carried).applications)
         return Diagnosis("unexplained", verdict.says)
@@ -282,7 +284,7 @@ def _as_text(earlier: Mapping[str, Any]) -> str:
 
 def _is_shorter(cell: Cell, key: Any) -> bool:
     """Whether a number is the key, rounded or cut off where its own digits end."""
-    if not isinstance(cell, Reading) or not is_rational(cell.value):
+    if not isinstance(cell, Reading) or not is_rational(cell.value) or not may_mean(cell, key):
         return False
     places = next((places for places in range(_PLACES) if 10**places % int(cell.value.q) == 0), None)
     return places is not None and abs(approximate(cell.value) - approximate(key)) < 10.0**-places
@@ -311,6 +313,8 @@ def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
 def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -> str:
     """What was done, or might have been: mistakes by what is right instead, all else by what it looks like."""
     looks = [_sentence(saying(cause, applications)) for cause in causes if cause.mistake is None]
+    if looks and all(cause.application and cause.application.equation for cause in causes if cause.mistake is None):
+        looks.append("there is a slip in solving the equations")
     told = [cause.mistake.says for cause in causes if cause.mistake is not None]
     if looks:
         told.insert(0 if causes[0].mistake is None else len(told), f"it looks as if {', or '.join(looks)}.")

@@ -25,7 +25,7 @@ from rldrill.render.page import Page
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
 from rldrill.solutions.abridging import abridged
-from rldrill.solutions.answers.judging import Verdict, judge
+from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import points, seconds_of
@@ -121,14 +121,24 @@ class Exercise:
             self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
         }
         graded = grade(self.solution, texts, self.worth)
+        verdicts = {part.part: part.verdict for part in graded.parts}
         return Graded(
             tuple(
-                part
-                if part.verdict is None
-                else replace(part, verdict=self.diagnosing.unmasked(part.part, part.typed, part.verdict))
+                part if part.verdict is None else replace(part, verdict=self.unmasked(part.part, part.typed, verdicts))
                 for part in graded.parts
             )
         )
+
+    def unmasked(self, label: str, text: str, verdicts: Mapping[str, Verdict | None]) -> Verdict:
+        """The verdict on a part, among those on others: what is close to the key by accident is wrong.
+
+        Raises:
+            KeyError: it was not judged.
+        """
+        verdict = verdicts[label]
+        if verdict is None:
+            raise KeyError(label)
+        return self.diagnosing.unmasked(label, text, verdict, self._settled(label, verdicts))
 
     @cached_property
     def diagnosing(self) -> "Diagnosing":
@@ -175,7 +185,15 @@ class Exercise:
             for other, judged in verdicts.items()
             if judged is not None and judged.value is not None and other < label and not judged.accepted
         }
-        return self.diagnosing.diagnose(label, text, verdict, before, seconds)
+        return self.diagnosing.diagnose(label, text, verdict, before, seconds, self._settled(label, verdicts))
+
+    def _settled(self, label: str, verdicts: Mapping[str, Verdict | None]) -> dict[str, Any]:
+        """The right answers to the parts before, as far as they were given."""
+        return {
+            other: self.solution.answers[other]
+            for other, judged in verdicts.items()
+            if judged is not None and judged.outcome is Outcome.RIGHT and other < label
+        }
 
     def follow(self, lines: Iterable[str] | str) -> "Followed":
         """Somebody's own working held against the right one: where it departs, and what follows from there.

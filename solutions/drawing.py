@@ -1,9 +1,8 @@
 """Drawing a problem that is a good exam question, with its solution."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import nullcontext
-from typing import Any
 
 from pydantic import ValidationError
 
@@ -14,7 +13,6 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, UsageError
 from rldrill.problems.family import Family, Givens, Problem, trusted
 from rldrill.problems.identity import MAX_SEED, Identity, split_id
-from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, digits, is_zero, parameters
 from rldrill.solutions.formula.elimination import largest
 from rldrill.solutions.solution import Solution, solve
@@ -106,28 +104,10 @@ def flaws(solution: Solution) -> Iterator[str]:
         yield "a linear system is solved with numbers that are too large"
     for misconception in solution.applicable:
         answers = solution.answers_with(misconception)
-        if answers is not None and not distinguishable(solution, answers):
+        if answers is not None and not solution.tells_apart(answers):
             yield f"{misconception.name} gives the right answer"
 
 
 def _eliminated(solution: Solution) -> int:
     """The largest whole number, above a line or below it, with which linear systems are solved."""
     return max((largest(line.equations) for line in solution.lines if isinstance(line, Elimination)), default=0)
-
-
-def distinguishable(solution: Solution, answers: Mapping[str, Any]) -> bool:
-    """Whether a marker can tell these answers from the right ones, in one part at least."""
-    for label, kind in solution.kinds.items():
-        if label in answers and _differ(solution.cells[label], kind.cells(answers[label])):
-            return True
-    return False
-
-
-def _differ(right: Mapping[str, Any], wrong: Mapping[str, Any]) -> bool:
-    for name, content in right.items():
-        if isinstance(content, tuple):
-            if not set(content) & set(wrong[name]):
-                return True
-        elif apart(content, wrong[name]):
-            return True
-    return False

@@ -10,6 +10,7 @@ from typing import Any
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.answers.kinds import Answer, answer_kind
+from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, NotGiven
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
@@ -105,6 +106,14 @@ class Solution:
         """The exact answer of every part, taken apart into what is judged one by one."""
         return {label: kind.cells(self.answers[label]) for label, kind in self.kinds.items()}
 
+    def tells_apart(self, answers: Mapping[str, Any]) -> bool:
+        """Whether a marker can tell these answers from the right ones, in one part at least."""
+        return any(
+            _differ(self.cells[label], kind.cells(answers[label]))
+            for label, kind in self.kinds.items()
+            if label in answers
+        )
+
     @property
     def lines(self) -> tuple[Line, ...]:
         """The whole working."""
@@ -176,6 +185,13 @@ class Solution:
             return run(self.problem, carried=carried).answers
         except NoSolution:
             return {}  # nothing follows from what was typed
+
+
+def _differ(right: Mapping[str, Any], wrong: Mapping[str, Any]) -> bool:
+    return any(
+        not set(content) & set(wrong[name]) if isinstance(content, tuple) else apart(content, wrong[name])
+        for name, content in right.items()
+    )
 
 
 def run(

@@ -196,7 +196,6 @@ class _Problem:
         """The judgement of every part."""
         result: list[tuple[str, Entry | None, Judged]] = []
         given: dict[str, tuple[str, Verdict]] = {}
-        own = False  # whether an earlier answer is another than the key: only then something else may follow
         for part in self.exercise.parts:
             entry = entries.get(part.label)
             text = "" if entry is None else self._text(part, entry)
@@ -205,11 +204,10 @@ class _Problem:
             elif entry.is_cell and _DATE.fullmatch(text.strip()):
                 result.append((part.label, entry, self._date(part, text)))
             else:
-                verdict, judged = self._answer(part, text, given if own else {})
+                verdict, judged = self._answer(part, text, given)
                 result.append((part.label, entry, judged))
-                if verdict.value is not None:
-                    given[part.label] = (text, verdict)
-                    own = own or not self._is_key(part.label, verdict.value)
+                if verdict.value is not None:  # the key is the key, however it was typed
+                    given[part.label] = ("" if self._is_key(part.label, verdict.value) else text, verdict)
         return result
 
     def _answer(self, part: Part, text: str, carried: Mapping[str, tuple[str, Verdict]]) -> tuple[Verdict, Judged]:
@@ -232,7 +230,10 @@ class _Problem:
     def _verdict(self, label: str, text: str, carried: Mapping[str, tuple[str, Verdict]]) -> Verdict:
         earlier = {other: verdict.value for other, (_, verdict) in carried.items()}
         verdict = judge(self.exercise.solution, label, text, earlier)
-        return self.exercise.diagnosing.unmasked(label, text, verdict) if self._rules.causes else verdict
+        if not self._rules.causes:
+            return verdict
+        verdicts = {other: each for other, (_, each) in carried.items()}
+        return self.exercise.unmasked(label, text, {**verdicts, label: verdict})
 
     def _is_key(self, label: str, value: Any) -> bool:
         """Whether what somebody goes on from is the key itself, to the last digit: then nothing else follows."""
@@ -244,8 +245,7 @@ class _Problem:
     def _told(self, part: Part, text: str, verdict: Verdict, before: Mapping[str, Verdict]) -> Judged:
         diagnosis = None
         if self._rules.causes and not verdict.accepted:
-            wrong = {label: each for label, each in before.items() if not each.accepted}
-            found = self._diagnosed(part.label, text, verdict, wrong)
+            found = self._diagnosed(part.label, text, verdict, before)
             diagnosis = found if found.explains else None
         reason = verdict.says if diagnosis is None else diagnosis.of(verdict)
         mistake = "" if verdict.accepted or diagnosis is None else diagnosis.sentence
@@ -253,11 +253,11 @@ class _Problem:
         outcome = verdict.outcome.value
         return Judged(verdict.read, outcome, verdict.accepted, reason, score, self._key(part), diagnosis, mistake)
 
-    def _diagnosed(self, label: str, text: str, verdict: Verdict, wrong: Mapping[str, Verdict]) -> Diagnosis:
+    def _diagnosed(self, label: str, text: str, verdict: Verdict, before: Mapping[str, Verdict]) -> Diagnosis:
         """What an answer comes from; with the step as it was taken and as it should be where keys are told, too."""
         begun = process_time()
         left = min(time.left for time in self._times)
-        found = self.exercise.diagnosed(label, text, verdict, wrong, left)
+        found = self.exercise.diagnosed(label, text, verdict, before, left)
         for time in self._times:
             time.spend(process_time() - begun)
         return found if self._rules.keys else found.without_lines()

@@ -17,7 +17,6 @@ from rldrill.render.typst import block, document, line
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import NotReal
 from rldrill.solutions.formula.formula import Misconception
 
@@ -89,6 +88,6 @@ def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, Misconception]
 def _tells(exercise: Exercise, part: Part, answer: Any) -> bool:
     """Whether a mistake leads to an answer that a marker can tell from the right one."""
     try:
-        return distinguishable(exercise.solution, {part.label: answer})
+        return exercise.solution.tells_apart({part.label: answer})
     except NotReal:
         return False  # it takes the logarithm of nothing: nobody writes that down

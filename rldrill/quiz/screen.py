@@ -53,7 +53,7 @@ _WORDS = {
     Outcome.RIGHT: ("✓", ""),
     Outcome.FOLLOW_THROUGH: ("✓", ""),
     Outcome.CLOSE: ("≈", ""),
-    Outcome.MISCONCEPTION: ("✗", "A typical mistake: "),
+    Outcome.MISCONCEPTION: ("✗", "A typical mistake gives this: "),
     Outcome.WRONG: ("✗", ""),
     Outcome.UNREADABLE: ("?", "Not understood, and not counted: "),
 }

@@ -177,12 +177,21 @@ def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
 
 
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
-    """The misconceptions that give this answer, from the start or from the person's earlier answers."""
-    for mistakes in (solution.mistakes, solution.mistaken(earlier) if earlier else ()):
-        made = tuple(misconception for misconception, answers in mistakes if matches(part, cells, answers))
-        if made:
-            return made
-    return ()
+    """The misconceptions that give this answer, from the start or from the person's earlier answers.
+
+    One from the start is none if the earlier answers that were right deny it: with them it does not give this answer.
+    """
+    right = {
+        label: solution.answers[label] for label, value in earlier.items() if not solution.tells_apart({label: value})
+    }
+    made = tuple(
+        misconception
+        for misconception, answers in solution.mistakes
+        if matches(part, cells, answers)
+        and (not right or matches(part, cells, solution.answers_with(misconception, right) or {}))
+    )
+    later = solution.mistaken(earlier) if earlier and not made else ()
+    return made or tuple(misconception for misconception, answers in later if matches(part, cells, answers))
 
 
 def _told(kind: Kind, made: tuple[Misconception, ...]) -> tuple[Misconception, ...]:

@@ -1,6 +1,6 @@
 """What somebody may have done, and what comes of it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,9 +48,14 @@ class Cause:
     then: "Cause | None" = None
 
 
+#: The answers that a cause leads to, for somebody who goes on from these answers to earlier parts.
+Again = Callable[[Mapping[str, Any]], Mapping[str, Any] | None]
+
+
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A cause, and the answers that it leads to."""
+    """A cause, the answers that it leads to, and how to get those that it leads to from other earlier ones."""
 
     cause: Cause
     answers: Mapping[str, Any]
+    again: Again

@@ -1,7 +1,8 @@
 """What an answer comes from: the causes that give it, weighed against each other and against chance."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
@@ -35,9 +36,9 @@ class Explained:
         return sum(self.shares)
 
 
-def explained(outcomes: Outcomes, typed: Typed, clock: Clock) -> Explained:
-    """What a wrong answer comes from; nothing, where that could be anything."""
-    found, finished = giving(outcomes, typed, clock)
+def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[str, Any] | None = None) -> Explained:
+    """What a wrong answer comes from; nothing, where that could be anything, or answers that are settled deny it."""
+    found, finished = giving(outcomes, typed, clock, settled or {})
     if not found:
         return Explained()
     causes = [each.cause for each in found]
@@ -55,18 +56,22 @@ def likeliest(shares: Sequence[float], groups: Sequence[Sequence[int]]) -> list[
     return sorted(told, key=lambda each: -shares[each[1]])
 
 
-def giving(outcomes: Outcomes, typed: Typed, clock: Clock) -> tuple[list[Outcome], bool]:
+def giving(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[str, Any]) -> tuple[list[Outcome], bool]:
     """The causes that give what was typed, and whether all were looked at; none, where so few answers are possible."""
     many = room(typed, exact=True)
     if many < _FEW:
         return [], True
+
+    def standing(found: Iterable[Outcome]) -> list[Outcome]:
+        return [outcome for outcome in found if outcomes.stands(outcome, settled)]
+
     finished = outcomes.grow(clock)
-    found = outcomes.giving(typed)
+    found = standing(outcomes.giving(typed))
     if not found and many >= ROOM_FOR_TWO and finished:
-        found = [*outcomes.giving_apart(typed)]
+        found = standing(outcomes.giving_apart(typed))
         if not found:
             finished = outcomes.grow_pairs(clock)
-            found = outcomes.giving_in_turn(typed)
+            found = standing(outcomes.giving_in_turn(typed))
     return sorted(found, key=lambda each: -each.cause.weight), finished
 
 

@@ -1,10 +1,11 @@
 """Somebody's own working, line by line, held against the right one."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import partial
 from itertools import pairwise
 from typing import Any, TypeAlias
 from unicodedata import normalize
@@ -108,14 +109,20 @@ class _Follower:
         return label, sides
 
     def _entries(self, piece: str) -> Entries | None:
-        parameters = self.search.problem.parameters
-        if "[" in piece or "(" in piece:
-            for shape in self.shapes:
-                with suppress(Unreadable):
-                    return tuple(entry for line in read_matrix(piece, shape, parameters) for entry in line)
-        with suppress(Unreadable):
-            return (read_number(piece, parameters),)
+        readings: list[Callable[[], Entries]] = [
+            partial(self._number, piece),
+            *(partial(self._grid, piece, shape) for shape in self.shapes),
+        ]
+        for read_ in reversed(readings) if {"[", "("} & set(piece) else readings:  # [−10 −12] is no difference
+            with suppress(Unreadable):
+                return read_()
         return None
+
+    def _number(self, piece: str) -> Entries:
+        return (read_number(piece, self.search.problem.parameters),)
+
+    def _grid(self, piece: str, shape: tuple[int, int]) -> Entries:
+        return tuple(entry for line in read_matrix(piece, shape, self.search.problem.parameters) for entry in line)
 
     def _placed(self, text: str, label: str, last: Entries) -> Line:
         standing = Standing.FOLLOWS if self.values else Standing.RIGHT
@@ -264,6 +271,8 @@ def _names(application: Application) -> set[str]:
     head = re.sub(r"\(.*", "", written)
     time = application.known.get("t")
     names = {written, re.sub(r"[(),]", "", written), head}
+    if len(indices := {*re.findall(r"\d+", written.removeprefix(head))}) == 1:
+        names.add(head + indices.pop())  # r1 for r(s_1)
     if isinstance(time, int):
         names |= {f"{head}{time}", re.sub("t(?![a-z])", str(time), written)}
     return names

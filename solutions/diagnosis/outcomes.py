@@ -4,6 +4,7 @@ from bisect import bisect_left, bisect_right
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import combinations
 from math import isnan, nan
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.judging import wrong_cells
 from rldrill.solutions.diagnosis.alternatives import LIKELY, hashable, likely, numbers, plain
-from rldrill.solutions.diagnosis.causes import Cause
+from rldrill.solutions.diagnosis.causes import Again, Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
@@ -36,6 +37,7 @@ class Outcome:
         spoilt: the cells that are others than those of the key.
         change: what to replay for the cells themselves.
         cells: these, where they are worked out.
+        again: how to get the answers from other earlier ones, where that is no change.
     """
 
     cause: Cause
@@ -43,6 +45,7 @@ class Outcome:
     spoilt: frozenset[str]
     change: Change | None = None
     cells: Mapping[str, Any] | None = None
+    again: Again | None = None
 
 
 @dataclass
@@ -132,7 +135,7 @@ class Outcomes:
             for candidate in whole[self._taken :]:
                 cells = self.cells_of(candidate.answers)
                 if cells is not None:
-                    self._keep(candidate.cause, cells)
+                    self._keep(candidate.cause, cells, again=candidate.again)
             self._taken = len(whole)
             while not clock.over and not self.finished:
                 self.finished = next(self._growth, True)
@@ -151,9 +154,11 @@ class Outcomes:
         """The cells of this part among some answers; None where they have no such part, or another one."""
         return cells_of(self.part, self.key, answers)
 
-    def _keep(self, cause: Cause, cells: Mapping[str, Any], change: Change | None = None) -> None:
+    def _keep(
+        self, cause: Cause, cells: Mapping[str, Any], change: Change | None = None, again: Again | None = None
+    ) -> None:
         sizes = tuple(_size(cells[name]) for name in self.names)
-        self.single.add(Outcome(cause, sizes, self._spoilt(sizes, cells), change, cells))
+        self.single.add(Outcome(cause, sizes, self._spoilt(sizes, cells), change, cells, again))
 
     def _spoilt(self, sizes: Sequence[float], cells: Mapping[str, Any] | None = None) -> frozenset[str]:
         return frozenset(
@@ -260,6 +265,16 @@ class Outcomes:
             self.double.add(Outcome(both, sizes, self._spoilt(sizes), Change(values={**values, number: other})))
 
     # Looking up -------------------------------------------------------------------------------------
+    def stands(self, outcome: Outcome, settled: Mapping[str, Any]) -> bool:
+        """Whether a cause gives the same to somebody whose earlier answers are settled, since they were right."""
+        again = outcome.again
+        if outcome.change is not None:
+            again = partial(self.search.replay, outcome.change, None)
+        if not settled or again is None:
+            return True
+        cells = self.cells_of(again(settled))
+        return cells is not None and all(equal(cells[name], right) for name, right in (outcome.cells or {}).items())
+
     def giving(self, typed: Typed) -> list[Outcome]:
         """The causes that give what was typed."""
         found = [outcome for outcome in self.single.near(typed) if self._gives(outcome, typed)]

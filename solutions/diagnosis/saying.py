@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 from sympy import Expr
 
 from rldrill.problems.mathematics import Math, name, relation, row
-from rldrill.solutions.diagnosis.alternatives import numbers
+from rldrill.solutions.diagnosis.alternatives import numbers, terms
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.givens import ORDINALS
 from rldrill.solutions.diagnosis.replay import Application
@@ -243,6 +243,10 @@ def _term(cause: Cause) -> Words:
         return (f" (the {nth} one)" if own else f" in the {nth} term of the sum",)
     if not cause.term or _in_its_term(cause) is not None:
         return ()
+    every = [] if cause.application is None else [term for term, _ in terms(within, cause.application.known)]
+    if any(str(item) == over.index.name for term in every for over, item in zip(within, term, strict=True)):
+        nth = _ordinal(every.index(cause.term))  # a = a and a = b say nothing
+        return (f" (the {nth} one)" if own else f" in the {nth} term of the sum",)
     pairs = [
         row(typeset(over.index), relation("="), name(str(item))) for over, item in zip(within, cause.term, strict=True)
     ]

@@ -3,7 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import sympy
@@ -65,9 +65,11 @@ class Search:
         """All applications of formulas in it."""
         return self.work.applications
 
-    def replay(self, change: Change, trace: list[Traced] | None = None) -> Mapping[str, Any] | None:
-        """The answers of a changed working."""
-        return replayed(self.problem, change, self.carried, self.applications, trace)
+    def replay(
+        self, change: Change, trace: list[Traced] | None = None, settled: Mapping[str, Any] | None = None
+    ) -> Mapping[str, Any] | None:
+        """The answers of a changed working; it goes on from what is settled, answers that were right."""
+        return replayed(self.problem, change, {**self.carried, **(settled or {})}, self.applications, trace)
 
     # The whole working ------------------------------------------------------------------------------
     def whole(self, clock: Clock) -> list[Candidate]:
@@ -87,17 +89,21 @@ class Search:
         """Every candidate; None where something else took time."""
         mistakes = self.solution.mistaken(self.carried) if self.carried else self.solution.mistakes
         for mistake, answers in mistakes:
-            yield Candidate(Cause("listed", weights.LISTED, mistake=mistake), answers)
+            again = partial(self._mistaken, mistake)
+            yield Candidate(Cause("listed", weights.LISTED, mistake=mistake), answers, again)
         yield from self._stated()
         yield from self._ideas()
         yield from self._habits()
         yield from self._misread()
         yield from self._equations()
 
+    def _mistaken(self, mistake: Misconception, settled: Mapping[str, Any]) -> Mapping[str, Any] | None:
+        return self.solution.answers_with(mistake, {**self.carried, **settled})
+
     def _candidate(self, cause: Cause, change: Change) -> Iterator[Candidate]:
         answers = self.replay(change)
         if answers is not None:
-            yield Candidate(cause, answers)
+            yield Candidate(cause, answers, partial(self.replay, change, None))
 
     def _stated(self) -> Iterator[Candidate]:
         """What is stated beside a formula as its mistake, though the family does not list it among its own."""
@@ -197,9 +203,13 @@ class Search:
 
     def _misread(self) -> Iterator[Candidate]:
         for other in misread(self.problem.given):
-            answers = with_givens(self.problem, other.given, self.carried, len(self.applications))
+            again = partial(self._with_givens, other.given)
+            answers = again({})
             if answers is not None and list(answers) == list(self.work.answers):
-                yield Candidate(Cause(other.kind, weights.PROCEDURE[other.kind], what=other.what), answers)
+                yield Candidate(Cause(other.kind, weights.PROCEDURE[other.kind], what=other.what), answers, again)
+
+    def _with_givens(self, given: Any, settled: Mapping[str, Any]) -> Mapping[str, Any] | None:
+        return with_givens(self.problem, given, {**self.carried, **settled}, len(self.applications))
 
     def _equations(self) -> Iterator[Candidate]:
         """Edits of one equation of a system."""

@@ -31,7 +31,7 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
         yield _cause("all-signs"), {name: -value for name, value in key.items()}
     for name, value in key.items():
         for slip, other in slips(value):
-            yield _cause(slip, name), {**key, name: other}
+            yield _cause(slip, name if len(key) > 1 else ""), {**key, name: other}
     if len(key) == 1:
         ((name, value),) = key.items()
         yield _cause("one-minus"), {name: 1 - value}

@@ -69,7 +69,7 @@ def test_a_mistake_is_named_with_its_formula_and_may_be_corrected() -> None:
     solution = rldrill.load(RACING_CAR).solution
     mean = next(answers for m, answers in solution.mistakes if m.name == "mean-for-max")
     typist, session, _ = quiz(", ".join(f"{s}: {v}" for s, v in mean["a"].items()), "3.5, 2.5", "s", "")
-    assert "A typical mistake: Value iteration keeps the best action's value" in typist.seen
+    assert "A typical mistake gives this: Value iteration keeps the best action's value" in typist.seen
     assert "meanₐ" in typist.seen
     assert [part.state for part in session.parts] == [State.DONE, State.SKIPPED]
     assert session.parts[0].tries == 2

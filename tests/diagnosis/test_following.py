@@ -123,3 +123,26 @@ def test_what_follows_from_a_wrong_matrix_is_told() -> None:
 )  # fmt: skip
 def test_a_line_is_known_by_its_numbers(line: str, numbers: dict[Fraction, int] | None) -> None:
     assert numbers_typed(line) == (None if numbers is None else Counter(numbers))
+
+
+# s₁ = (1 + 1, −1 + 1 + 1) = (2, 1) with a₀ = 1; r(s₀, a₀) = −(3 + 2 + 1) = −6, and at the end −(3·4 + 2·1) = −14.
+ROLLOUT = {
+    "family": "lqr-reward",
+    "given": {
+        "A": [[1, 1], [-1, 1]], "B": [[0], [1]], "Q": [[3, 0], [0, 2]], "R": [[1]], "start": [1, 1], "horizon": 1,
+        "L": [[0, -1]], "gamma": "1/3",
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("line", ["s_1 = 2, 1", "s1 = (2, 1)", "s1 = [2; 1]", "r1 = -14", "r(s1) = -14", "r0 = -6"])
+def test_a_vector_needs_no_brackets_and_a_reward_may_be_called_by_its_time(line: str) -> None:
+    (told,) = rldrill.read(ROLLOUT).follow([line]).lines
+    assert told.standing == "right"
+
+
+@pytest.mark.parametrize(("line", "where"), [("r1 = -5", "r(s₁)"), ("r0 = -5", "r(s₀, a₀)")])
+def test_a_wrong_reward_is_held_against_that_of_its_time(line: str, where: str) -> None:
+    followed = rldrill.read(ROLLOUT).follow([line])
+    assert followed.lines[0].standing == "departs"
+    assert where in followed.sentence

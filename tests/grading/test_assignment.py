@@ -198,10 +198,10 @@ def test_an_id_that_was_not_printed_is_not_told(tmp_path: Path) -> None:
     ],
 )
 def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, answer: str, share: Fraction) -> None:
-    # (b) asks for Ã = [3/4 −1; 0 1]: 1 − 2/(2·2·√4) = 3/4, 4 + (12 − 2·√4)/2 = 8, 8 − 3/4·4 − 1/2·12 = −1; the last
+    # (b) asks for Ã = [3/4 −1; 0 1]: 1 − 1/2·2/(2·√4) = 3/4, 4 + 1/2·(6 − 2·√4) = 5, 5 − 3/4·4 − 1/2·6 = −1; the last
     # row is 0 1 in every draw.
     path = tmp_path / "answers.csv"
-    path.write_text(f'{HEAD}Ann,,linearise-affine/1/22,b,"{answer}"\n')
+    path.write_text(f'{HEAD}Ann,,linearise-affine/1/6,b,"{answer}"\n')
     (part,) = [part for part in verify([path]).parts if part.part == "b"]
     assert part.score.points == share * part.score.of
     rules = Settings(rules=Rules(partial="all"))
@@ -324,11 +324,11 @@ def test_answers_that_leave_something_open_earn_nothing(tmp_path: Path) -> None:
 
 
 def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
-    # linearise-affine/1/22 (b) is [3/4 −1; 0 1], see above; its last row is the same in every draw.
+    # linearise-affine/1/6 (b) is [3/4 −1; 0 1], see above; its last row is the same in every draw.
     asked = (
-        Asked(id="linearise-affine/1/22", partial="entries"),
-        Asked(id="linearise-affine/1/22", partial=("entries", "all", "entries")),
-        Asked(id="linearise-affine/1/22"),
+        Asked(id="linearise-affine/1/6", partial="entries"),
+        Asked(id="linearise-affine/1/6", partial=("entries", "all", "entries")),
+        Asked(id="linearise-affine/1/6"),
     )
     path = tmp_path / "exam.json"
     path.write_bytes(written(manifest(plan(Blueprint(problems=asked, seed=7)))))
@@ -337,4 +337,4 @@ def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
     shares = [part.score.share for part in ann.parts if part.part == "b"]
     assert shares == [Fraction(1, 2), 0, 0]
     with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
-        plan(Blueprint(problems=(Asked(id="linearise-affine/1/22", partial=("all",)),), seed=7))
+        plan(Blueprint(problems=(Asked(id="linearise-affine/1/6", partial=("all",)),), seed=7))

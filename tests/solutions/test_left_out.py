@@ -7,7 +7,6 @@ import pytest
 import rldrill
 from rldrill.problems.catalogue import families
 from rldrill.problems.errors import UserError
-from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.solution import solver
 
 
@@ -53,7 +52,7 @@ def test_an_action_that_is_never_taken_need_not_be_listed(name: str) -> None:
                 continue
             for other in exercises[1:]:
                 assert isinstance(other, rldrill.Exercise)
-                assert not distinguishable(listed.solution, other.solution.answers)
+                assert not listed.solution.tells_apart(other.solution.answers)
                 assert working(listed) == working(other)
                 oracle = solver(listed.problem.family).oracle
                 assert str(oracle(listed.problem.given)) == str(oracle(other.problem.given))

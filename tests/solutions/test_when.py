@@ -3,7 +3,7 @@
 import pytest
 
 from rldrill.problems.catalogue import families, family
-from rldrill.solutions.drawing import distinguishable, draw
+from rldrill.solutions.drawing import draw
 from rldrill.solutions.solution import solver
 
 #: Mistakes that change something where they are ruled out, and why they cannot be told there.
@@ -39,7 +39,7 @@ def test_a_mistake_that_is_ruled_out_changes_nothing(name: str) -> None:
                 if not mistake.applies(solution.problem.given):
                     try:
                         made = solution.answers_with(mistake)
-                        told_apart = made is not None and distinguishable(solution, made)
+                        told_apart = made is not None and solution.tells_apart(made)
                     except Exception:  # what its givens have not, nobody can go by
                         continue
                     assert not told_apart, (solution.problem.identity, mistake)

@@ -1,0 +1,61 @@
+"""Nobody who had an earlier part right is told of a mistake that would have spoilt it."""
+
+from pathlib import Path
+
+import rldrill
+from rldrill.grading.verification import verify
+from rldrill.solutions.answers.judging import Outcome
+
+# δ = 1 + 1·2 − 10 = −7. The trace of (rim, drive) is 1·1/2·1 = 1/2, and Q = 8 + 1/4·(−7)·1/2 = 57/8. Whoever lets it
+# decay by γ alone has the trace 1 and 8 − 7/4 = 25/4; so has whoever has the right trace and leaves it out.
+TRACES = {
+    "family": "sarsa-lambda",
+    "given": {
+        "trajectory": {"states": ["floor", "rim"], "actions": ["climb", "climb"], "rewards": [1]},
+        "values": {"rim": {"drive": 8, "climb": 2}, "floor": {"drive": 2, "climb": 10}},
+        "alpha": "1/4",
+        "gamma": 1,
+        "lam": "1/2",
+        "traces": {"rim": {"drive": 1, "climb": 0}, "floor": {"drive": 0, "climb": 0}},
+    },
+}
+WRONG = "33/4, 25/4"
+DECAY = "Traces decay by the product γλ"
+
+# R₀ = 3 + 5 = 8 and R₁ = 5; V(cave) ← 4 + 1/2·(8 − 4) = 6, then 6 + 1/2·(5 − 6) = 11/2. With 7 for R₀ it is 21/4.
+RETURNS = {
+    "family": "monte-carlo",
+    "given": {
+        "trajectory": {"states": ["cave", "cave", "end"], "rewards": [3, 5], "terminal": ["end"]},
+        "values": {"cave": 4},
+        "alpha": "1/2",
+        "gamma": 1,
+        "visits": "every",
+    },
+}
+
+
+def test_a_typical_mistake_is_denied_by_an_earlier_right_answer() -> None:
+    exercise = rldrill.read(TRACES)
+    assert exercise.check(WRONG, "b").says.startswith(DECAY)
+    assert exercise.grade({"a": "1, 1", "b": WRONG})["b"].outcome is Outcome.FOLLOW_THROUGH
+    verdict = exercise.grade({"a": "1, 1/2", "b": WRONG})["b"].verdict
+    assert verdict is not None
+    assert (verdict.outcome, verdict.misconceptions) == (Outcome.WRONG, ())
+    assert "the factor e(s, a) is missing" in exercise.diagnose(WRONG, "b", {"a": "1, 1/2"}).sentence
+
+
+def test_so_it_is_in_a_file_of_answers(tmp_path: Path) -> None:
+    exercise = rldrill.draw("sarsa-lambda", 1, 3135325)  # these very numbers
+    for earlier, says in (("1, 1/2", "the factor e(s, a) is missing"), ("1, 2", DECAY)):
+        path = tmp_path / "answers.toml"
+        path.write_text(f'[answers."{exercise.id}"]\na = "{earlier}"\nb = "{WRONG}"\n')
+        _, judged = verify([path]).parts
+        assert says in judged.judged.reason
+
+
+def test_a_slip_in_an_earlier_part_is_denied_by_its_right_answer() -> None:
+    exercise = rldrill.read(RETURNS)
+    slip = "7 for 8 in R₀"
+    assert slip in exercise.diagnose("21/4", "b").sentence
+    assert slip not in exercise.diagnose("21/4", "b", {"a": "8, 5"}).sentence
