@@ -86,7 +86,9 @@ def _days(days: Iterable[Day]) -> Table:
     for day in days:
         share = day.right / day.parts if day.parts else 0.0
         answers = _counted(day.answers, "answer")
-        table.add_row(f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, _time(day.seconds))
+        table.add_row(
+            f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, f"{_time(day.seconds)} each"
+        )
     return table
 
 

@@ -294,6 +294,9 @@ class Screen:
 
     def _line(self, prompt: str, keys: str = "") -> str:
         """One line or key, the next of those lines that were pasted together, if there are any left."""
+        if not self._pasted and len(prompt) >= self._console.width:  # broken between its words, not within one
+            self._print(words(prompt.removesuffix(" > ")))
+            prompt = "> "
         self._pasted = self._pasted or self._display.ask(prompt, keys).split("\n")
         return self._pasted.pop(0)
 

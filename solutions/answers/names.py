@@ -113,12 +113,14 @@ def _spread(name: str) -> str:
 
 
 def _spellings(keys: Sequence[Key]) -> list[tuple[str, Key]]:
-    """How each key is typed; of pairs that have one half in common, the other half is enough."""
+    """How each key is typed; of pairs that have one half in common, or one for each state, the other half is enough."""
     spellings = [(key if isinstance(key, str) else " ".join(key), key) for key in keys]
     pairs = [key for key in keys if not isinstance(key, str)]
     for half in (0, 1):
-        if len({key[half] for key in pairs}) == 1:
-            spellings += [(key[1 - half], key) for key in pairs]
+        if len({key[1 - half] for key in pairs}) == 1 or (
+            half == 0 and len({state for state, _ in pairs}) == len(pairs)
+        ):
+            spellings += [(key[half], key) for key in pairs]
     return spellings
 
 

@@ -484,6 +484,8 @@ def test_names_of_keys(text, keys):
         ("fast: 1, A(slow): 2", [("cool", "fast"), ("cool", "slow")]),
         ("A(s, fast) = 1, π(slow|s) = 2", [("cool", "fast"), ("cool", "slow")]),
         ("cool: 1, Q(warm): 2", [("cool", "fast"), ("warm", "fast")]),
+        ("cool 1, warm 2", [("cool", "fast"), ("warm", "slow")]),
+        ("warm: 2, (cool, fast): 1", [("cool", "fast"), ("warm", "slow")]),
     ],
 )
 def test_keys_as_they_are_printed(text, keys):
