@@ -44,11 +44,17 @@ def version(
         raise typer.Exit
 
 
+def _end(*_: object) -> None:
+    """Whoever is told to end takes its processes along."""
+    sys.exit(128 + signal.SIGTERM)
+
+
 def main() -> None:
     """Run a command; whatever goes wrong ends in one sentence and the exit code that belongs to it."""
     _open_streams()
     if hasattr(signal, "SIGPIPE"):
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # when nobody reads on, end quietly as every Unix tool does
+    signal.signal(signal.SIGTERM, _end)
     try:
         try:
             app()

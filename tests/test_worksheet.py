@@ -4,8 +4,10 @@ import hashlib
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -464,3 +466,37 @@ def test_a_missing_folder_is_found_out_before_anything_is_drawn(tmp_path: Path) 
     with pytest.raises(FileNotFoundError) as caught:
         run("-o", tmp_path / "no" / "x.pdf")
     assert caught.value.filename == str(tmp_path / "no")
+
+
+OWN = 'family = "return"\n[given]\nrewards = [7, 11, 13]\ngamma = "1/2"\n'  # R₀ = 7 + 11/2 + 13/4 = 63/4
+WITH_OWN = 'title = "x"\nseed = 1\n[[problems]]\nfile = "own.toml"\n[[problems]]\nid = "td-zero/1/7"\n'
+
+
+@pytest.mark.parametrize("ending", ["md", "html", "json", "tex"])
+def test_a_blueprint_with_a_problem_of_ones_own_is_an_exam_too(tmp_path: Path, ending: str) -> None:
+    (tmp_path / "own.toml").write_text(OWN)
+    (tmp_path / "exam.toml").write_text(WITH_OWN)
+    target = tmp_path / f"e.{ending}"
+    run(tmp_path / "exam.toml", "-o", target)
+    text = target.read_text(encoding="utf-8")
+    if ending == "tex":  # which holds the solutions, not to be printed
+        assert "% \\printanswers" in text
+        return
+    assert not any(told in text for told in ("63/4", "15.75", "<details", "<script", '"steps"', '"answer"'))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there nobody is asked to end")
+def test_whoever_is_told_to_end_ends_without_a_word_and_can_go_on(tmp_path: Path) -> None:
+    wanted = ["worksheet", "return", "-n", "1", "--level", "1", "--seed", "3", "--versions", "12"]
+    command = [sys.executable, "-m", "rldrill", *wanted, "-o", str(tmp_path / "e.pdf")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+        while not [*tmp_path.glob("*.pdf")]:
+            assert running.poll() is None
+            time.sleep(0.02)
+        running.send_signal(signal.SIGTERM)
+        _, said = running.communicate(timeout=60)
+    assert running.returncode == 128 + signal.SIGTERM
+    assert "Traceback" not in said
+    again = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
+    assert "are there already" in again.stderr
+    assert len([*tmp_path.glob("*.pdf")]) == 24

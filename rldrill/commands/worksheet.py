@@ -119,22 +119,17 @@ def command(
             return
         written = _reprinted(source, output, changes, only_keys=key, force=force)
     else:
-        blueprint, stem = _blueprint(list(names or ()), count, minutes, level)
+        blueprint, stem, planned = _blueprint(list(names or ()), count, minutes, level)
         blueprint = blueprint.but(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
         )
         if other is not None:
             exam = _drawn(blueprint, roster, secret_file)
-            practice = roster is None and not _is_blueprint_file(names or [], blueprint)
+            practice = roster is None and not planned
             _print(_exported(exam, output or Path(stem), other, practice=practice, force=force), as_json=as_json)
             return
         written = _printed(blueprint, output or Path(f"{stem}.pdf"), roster, secret_file, only_keys=key, force=force)
     _print([str(path) for path in written], as_json=as_json)
-
-
-def _is_blueprint_file(names: list[str], blueprint: "Blueprint") -> bool:
-    """Whether what was named is a blueprint, and no problem's file."""
-    return len(names) == 1 and names[0].lower().endswith(".toml") and all(e.file is None for e in blueprint.problems)
 
 
 def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None) -> "Exam":
@@ -211,8 +206,10 @@ def _write_template(path: Path, *, force: bool) -> None:
     write_bytes_atomically(path, template().encode())
 
 
-def _blueprint(names: list[str], count: int | None, minutes: int | None, level: int | None) -> "tuple[Blueprint, str]":
-    """What is asked for, and what its file is called if nothing else is said."""
+def _blueprint(
+    names: list[str], count: int | None, minutes: int | None, level: int | None
+) -> "tuple[Blueprint, str, bool]":
+    """What is asked for, what its file is called if nothing else is said, and whether a blueprint says it: an exam."""
     from rldrill.exam.blueprint import Blueprint, Entry, is_blueprint, read_blueprint
     from rldrill.files import read_data
     from rldrill.problems.errors import UsageError
@@ -223,13 +220,13 @@ def _blueprint(names: list[str], count: int | None, minutes: int | None, level: 
     if plans:
         if len(names) > 1 or count or level:
             raise UsageError(f"{plans[0]} is a blueprint, which names the problems itself; leave the other names out.")
-        return read_blueprint(plans[0]).but(minutes=minutes), Path(plans[0]).stem
+        return read_blueprint(plans[0]).but(minutes=minutes), Path(plans[0]).stem, True
     fixed = [Entry(id=name) if looks_like_id(name) else Entry(file=name) for name in names if _is_problem(name)]
     rest = tuple(name for name in names if not _is_problem(name))
     if rest or not fixed:
         wanted = None if minutes and count is None else max(1, (count or _PROBLEMS) - len(fixed))
         fixed.append(Entry(topic=rest, count=wanted, level=level))
-    return Blueprint(problems=tuple(fixed), minutes=minutes), "worksheet"
+    return Blueprint(problems=tuple(fixed), minutes=minutes), "worksheet", False
 
 
 def _is_problem(name: str) -> bool:

@@ -152,6 +152,7 @@ def marker(manifest: Path | None, rules: Rules, *, isolated: bool) -> Iterator[M
 def _work(connection: "Connection", inherited: "Connection | None", manifest: Path | None, rules: Rules) -> None:
     """The other process: for every task None once its problem is solved, then the marks, or a sentence."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one who asked ends this process
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if inherited is not None:
         inherited.close()  # while it is open here, nobody hears that the one who asks has ended
         _end_with_parent()
