@@ -151,18 +151,20 @@ def chosen(names: Sequence[str]) -> tuple[str, ...]:
     wanted: set[str] = set()
     for name in names:
         topic = name.strip().lower().replace("-", "_")
-        wanted.update(topics()[topic] if topic in topics() else (_place(name)[1],))
+        wanted.update(topics()[topic] if topic in topics() else (_place(name, "topic or family")[1],))
     return tuple(name for name in families() if name in wanted)
 
 
-def _place(name: str) -> tuple[str, str]:
+def _place(name: str, wanted_is: str = "family") -> tuple[str, str]:
     """The topic and the name of the family so called."""
     wanted = name.strip().lower().replace("_", "-")
     for known in (_own, topics):  # who is asked for one of ours need not wait for the others
         for topic, names in known().items():
             if wanted in names:
                 return topic, wanted
-    raise UsageError(f"There is no family {name[:40]!r}{_similar(wanted)}; rldrill.families() and 'rldrill list' tell.")
+    raise UsageError(
+        f"There is no {wanted_is} {name[:40]!r}{_similar(wanted)}; 'rldrill list' and rldrill.families() tell."
+    )
 
 
 def _similar(wanted: str) -> str:

@@ -7,12 +7,19 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from rldrill.problems.expressions import GREEK
+
 _LONGEST = 40
 _PLACE = re.compile(r"([a-z_]+(?:\[\d+\])*): ", re.IGNORECASE)
 _TABLE = "must be a table, in which every name has its value"
 _WHOLE = "{given} is not a whole number; write one, such as 3"
 _TRUTH = "{given} is neither true nor false; write one of them"
 _LIST = "must be a list; a single entry, too, stands in brackets: {listed}"
+#: What fields are called elsewhere.
+_ALSO = {
+    "discount": "gamma", "discount_factor": "gamma", "step_size": "alpha", "learning_rate": "alpha", "lambda": "lam",
+    "λ": "lam",
+} | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
 #: What to say of the faults that pydantic finds, by its names for them.
 _SAYS = {
     "missing": "is missing; add it",
@@ -62,7 +69,7 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
         near = nearest(str(place[-1]), _known(schema, schema, place[:-1]))
         known = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
         return f"given{path} is not a field{near}; {known}{more}."
-    told = _told(first)
+    told = says(first)
     if begun := _PLACE.match(told):  # what a whole model says of one of its fields
         path, told = f"{path}.{begun[1]}", told[begun.end() :]
     return f"given{path}: {told}{more}."
@@ -70,7 +77,8 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
 
 def nearest(name: str, known: Sequence[str]) -> str:
     """The one of these that a name was probably meant to be, in brackets; nothing where none is near."""
-    close = get_close_matches(name.lower(), known, n=1, cutoff=0.5) or [each for each in known if each == name.lower()]
+    meant = [each for each in (name.lower(), _ALSO.get(name.lower())) if each in known]
+    close = meant or get_close_matches(name.lower(), known, n=1, cutoff=0.5)
     return f" (did you mean {close[0]}?)" if close else ""
 
 
@@ -90,7 +98,8 @@ def _known(whole: Schema, schema: Schema, place: Sequence[int | str]) -> list[st
     return [*found, *(_known(whole, inner, rest) if isinstance(inner, dict) else ())]
 
 
-def _told(fault: Mapping[str, Any]) -> str:
+def says(fault: Mapping[str, Any]) -> str:
+    """What is said of one of the faults that pydantic lists: what is wrong, and what to do."""
     kind, given, told = fault["type"], fault["input"], fault.get("ctx", {})
     if kind in ("too_short", "too_long") and not isinstance(given, str):
         return _counted(kind, len(given), told)
@@ -99,12 +108,11 @@ def _told(fault: Mapping[str, Any]) -> str:
     if kind == "string_pattern_mismatch":
         signs = "neither $ nor a backslash" if "$" in told["pattern"].removesuffix("$") else "no backslash"
         return f"may hold {signs}; take them out"
-    says = _SAYS.get(kind, str(fault["msg"]).removeprefix("Value error, ").removesuffix("."))
     if kind not in _SAYS:
-        return says
+        return str(fault["msg"]).removeprefix("Value error, ").removesuffix(".")
     listed = f"[{_brief(given)}]" if isinstance(given, str | int) else "[1, 2]"
     about = {key: str(value).lower() if key == "class_name" else value for key, value in told.items()}
-    return says.format(**about, given=_shown(given), listed=listed, length=len(str(given)))
+    return _SAYS[kind].format(**about, given=_shown(given), listed=listed, length=len(str(given)))
 
 
 def _counted(kind: str, count: int, told: Mapping[str, Any]) -> str:
@@ -127,6 +135,8 @@ def _shown(given: object) -> str:
         return "a table"
     if given is None:
         return "nothing"
+    if isinstance(given, bool):
+        return str(given).lower()
     text = repr(given) if isinstance(given, str) else str(given)
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
 

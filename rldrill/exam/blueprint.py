@@ -1,7 +1,7 @@
 """Blueprints: what an exam shall be, read from a TOML file or put together from a command line."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import date
 from importlib.resources import files
 from pathlib import Path
@@ -13,7 +13,8 @@ from pydantic_core import PydanticCustomError
 from rldrill.exam.choices import DecimalMark, Language, Paper, Partial, Solutions, Space
 from rldrill.exam.exam import DEFAULT_TITLE, Head, Layout
 from rldrill.files import parse, read_text, shown
-from rldrill.problems.complaints import nearest
+from rldrill.problems.catalogue import chosen
+from rldrill.problems.complaints import nearest, says
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.notations import LECTURE, known
 
@@ -22,13 +23,6 @@ MOST_PROBLEMS, MOST_VERSIONS = 100, 999
 LONGEST_TITLE = 200
 _WAYS = ("family", "topic", "id", "file")
 _EACH = re.compile(r"^\s*\[\[\s*problems\s*\]\]", re.MULTILINE)
-_SAID = {
-    "missing": "it is missing",
-    "int_type": "write a whole number",
-    "bool_type": "write true or false",
-    "string_type": "write a text, in quotes",
-    "list_type": "write a list, in square brackets",
-}
 
 
 def _listed(value: object) -> object:
@@ -43,7 +37,8 @@ def _known_notation(name: str) -> str:
     try:
         return known(name)
     except UsageError as error:
-        raise PydanticCustomError("notation", "{said}", {"said": str(error)[:-1]}) from None
+        said = str(error)[:-1]
+        raise PydanticCustomError("notation", "{said}", {"said": said[:1].lower() + said[1:]}) from None
 
 
 #: The name of a notation.
@@ -169,10 +164,30 @@ def read_blueprint(path: str | Path) -> Blueprint:
         blueprint._total = f"{where}, line {line}: "
     starts = [text.count("\n", 0, found.end()) + 1 for found in _EACH.finditer(text)]
     blueprint._lines = tuple(starts) if len(starts) == len(blueprint.problems) else ()
+    left_out = _left_out(blueprint.exclude, f"{where}, line {_line(text, ['exclude'])}")
+    seen: set[str] = set()
     for index, entry in enumerate(blueprint.problems):
-        if flaw := _flaw(entry):
+        flaw = _flaw(entry)
+        if entry.family in left_out:
+            flaw = f"{entry.family} is left out by exclude; take it out there, or here."
+        if entry.id in seen:
+            flaw = f"{entry.id} is there already; one of them is enough."
+        if flaw:
             raise FileError(f"{blueprint.place(index)}{flaw}")
+        seen |= {entry.id} if entry.id else set()
     return blueprint
+
+
+def _left_out(names: Sequence[str], where: str) -> frozenset[str]:
+    """The families that are never drawn.
+
+    Raises:
+        FileError: one of the names is neither a topic nor a family.
+    """
+    try:
+        return frozenset(chosen(names)) if names else frozenset()
+    except UsageError as error:
+        raise FileError(f"{where}: {error}") from None
 
 
 def is_blueprint(data: object) -> bool:
@@ -192,10 +207,9 @@ def _flaw(entry: Entry) -> str | None:
 
 
 def _sentence(error: ValidationError, text: str, where: str) -> str:
-    first, *rest = sorted(error.errors(), key=lambda fault: fault["type"] != "extra_forbidden")
-    place = [step for step in first["loc"] if isinstance(step, int) or step in _KNOWN or step is first["loc"][-1]]
-    if first["type"] == "extra_forbidden":
-        place = list(first["loc"])
+    faults = sorted(error.errors(), key=lambda fault: fault["type"] != "extra_forbidden")
+    first, *rest = _one_of_each(faults)
+    place = _place(first)
     line = _line(text, place)
     at = f"{where}, line {line}" if line else where
     more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
@@ -205,8 +219,25 @@ def _sentence(error: ValidationError, text: str, where: str) -> str:
         near = nearest(name, known) or f"; there are {', '.join(known)}"
         whose = "[[problems]]" if len(place) > 1 else "a blueprint"
         return f"{at}: {name[:40]!r} is not a field of {whose}{near}{more}."
-    told = _SAID.get(first["type"]) or first["msg"][:1].lower() + first["msg"][1:]
-    return f"{at}: {name}: {told}{more}."
+    if place == ["problems"] and isinstance(first["input"], dict):
+        return f"{at}: every problem begins with a line [[problems]], in two brackets{more}."
+    return f"{at}: {name}: {says(first)}{more}."
+
+
+def _one_of_each(faults: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    """Of several faults of one field the first: it may be of several types, and each has a fault of its own."""
+    found: dict[tuple[int | str, ...], Mapping[str, Any]] = {}
+    for fault in faults:
+        if not isinstance(fault["input"], list):  # what is a list is not meant for a number
+            found.setdefault(tuple(_place(fault)), fault)
+    return [*found.values()] or [*faults]
+
+
+def _place(fault: Mapping[str, Any]) -> list[int | str]:
+    """Where a fault is, by the names of fields alone: pydantic adds those of the types that a field may have."""
+    if fault["type"] == "extra_forbidden":
+        return list(fault["loc"])
+    return [step for step in fault["loc"] if isinstance(step, int) or step in _KNOWN]
 
 
 _KNOWN = frozenset((*Entry.model_fields, *Blueprint.model_fields))

@@ -56,7 +56,7 @@ def test_no_problem_comes_twice_and_a_lot_ends_where_there_are_no_more(monkeypat
 
 
 def test_a_level_that_none_has_is_a_sentence() -> None:
-    with pytest.raises(UsageError, match="There is no family"):
+    with pytest.raises(UsageError, match="There is no topic or family"):
         lots(("no-such-family",), 1, 5, 1)
 
 

@@ -36,7 +36,7 @@ def test_an_index_is_the_same_problem_again_and_the_splits_differ() -> None:
 
 
 def test_what_does_not_exist_is_refused() -> None:
-    with pytest.raises(AssertionError, match="There is no family 'no-such'"):
+    with pytest.raises(AssertionError, match="There is no topic or family 'no-such'"):
         reasoning_gym.create_dataset("rldrill", names=("no-such",))
     with pytest.raises(AssertionError, match="neither train nor held-out"):
         reasoning_gym.create_dataset("rldrill", split="tests")

@@ -84,7 +84,7 @@ def test_a_slip_that_no_family_lists_is_drilled_where_a_step_has_room_for_it() -
         ("forgot-gama", (), "Did you mean forgot-gamma"),
         ("qqqq", (), "There is no mistake called 'qqqq'. 'rldrill stats'"),
         ("forgot-gamma", ("bayes",), "“forgot gamma” is no mistake of these problems; drill it in bellman-backup"),
-        ("forgot-gamma", ("bays",), "There is no family 'bays'"),
+        ("forgot-gamma", ("bays",), "There is no topic or family 'bays'"),
     ],
 )
 def test_what_cannot_be_drilled_is_told_in_a_sentence(text: str, names: tuple[str, ...], said: str) -> None:
