@@ -7,7 +7,7 @@ from typing import Any, Literal, NamedTuple, Self
 from pydantic import Field, model_validator
 
 from rldrill.problems.asking_back import Rates, Rows, Worth, draw_forward, draw_rates, updates_of
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Question
@@ -215,7 +215,7 @@ def _last_asked(given: Given) -> str:
     rate = " With the same step size, which" if given.known is not None else " Which"
     return (
         f'Suppose that $Q("{state}", "{action}")$ had been ${shown(value)}$ before the first update.{rate} of the two '
-        "would have had another target, at one time at least?"
+        "would have had another target at some time $t$?"
     )
 
 
@@ -224,5 +224,5 @@ def _targets_asked(given: Given, steps: int, method: str) -> Part:
     if steps == 1:
         return Part(f"What is the target $y_0$ of {method}{in_open(given)}?", Number())
     names = tuple(f"y_{{{time}}}" for time in range(steps))
-    told = "$y_0$ and $y_1$" if steps == 2 else f"$y_0, …, y_{{{steps - 1}}}$"
+    told = joined([f"${name}$" for name in names])
     return Part(f"What are the targets {told} of {method}{in_open(given)}?", Numbers(names))

@@ -71,4 +71,4 @@ def question(given: Given) -> Question:
     )
     entries = tuple(f"δ_{{{time}}}" for time in range(len(given.trajectory.rewards)))
     blocks = (*episode_blocks(given), note, values_table(given.baseline, "b"))
-    return Question(blocks, gradient_parts(given, "returns relative to the baseline", entries))
+    return Question(blocks, gradient_parts(given, "differences between return and baseline,", entries))

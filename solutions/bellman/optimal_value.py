@@ -96,7 +96,7 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
         last = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)))
         values, of = last.values, f"$π_{{{last.number}}}$"
-        work.say(f"Is another action better than that of {of}? Its values are put into the optimality equation:")
+        work.say(f"Is another action better than that of {of}? Suppose that the values of {of} are $V^*$:")
         Q = _worths(given, work, values)
         work.say(f"The greatest values are those of {of} again, so no action is better: they are optimal.")
     else:

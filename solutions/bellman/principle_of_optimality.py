@@ -23,6 +23,7 @@ def solve(given: Given, work: Work) -> None:
 
 def _along(given: Given, work: Work, ways: Ways) -> None:
     R = _rewards(given)
+    work.say(f'Backwards from the goal, where $V^*("{given.goal}") = 0$:')
     values = _totals(given.goal, given.backwards, ways, R, work)
     values = {given.goal: ZERO} | work.answer({state: values[state] for state in ways})
     best = {state: _best(state, after, R, values, work) for state, after in ways.items()}

@@ -48,10 +48,9 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
     tables |= {(2, *pair): value for pair, value in known["Q"].items()}  # what nobody gave: nothing after the end
     tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}
     for time, (turn, *pair) in enumerate(zip(given.updates, run.states, run.actions, strict=False)):
-        if len(given.updates) > 1:
-            ended = run.states[time + 1] in run.terminal
-            last = " and ends the episode, so nothing comes after its reward" if ended else ""
-            work.say(f"The transition at $t = {time}$ updates $Q_{turn}${last}:")
+        ended = run.states[time + 1] in run.terminal
+        last = " and ends the episode, so nothing comes after its reward" if ended else ""
+        work.say(f"The transition at $t = {time}$ updates $Q_{turn}${last}:")
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
         if given.outcome and time == len(given.updates) - 1:
             worth = {pair: tables[turn, *pair] for pair in given.updated}

@@ -98,7 +98,8 @@ def _updates_needed(times: Sequence[int], *, every: bool) -> str:
         return "No state that is updated is entered later on, so all targets read the table as it was before the run."
     at = joined([f"$t = {time}$" for time in times])
     which = f"update at {at} is" if len(times) == 1 else f"updates at {at} are"
-    return f"Only the {which} written: no target{'' if every else ' that is needed here'} reads what the others change."
+    targets = "target" if every else "target that is needed here"
+    return f"Only the {which} written: no {targets} reads what any other update changes."
 
 
 def _moved(work: Work, time: int, known: dict[str, Any], target: Value) -> Value:

@@ -22,6 +22,8 @@ def solve(given: Given, work: Work) -> None:
     known = knowns.model(mdp) | letters | {"gamma": exact(given.gamma), "pi": knowns.policy(given.chances)}
     values = dict.fromkeys(mdp.states, ZERO) | knowns.state_values(given.start or {}, mdp.terminal)
     formula = formula if given.in_place else synchronous(formula)
+    if given.in_place:
+        work.say("Every new value is used at once: the steps after it take it in place of the old one.")
     for sweep in range(1, given.sweeps + 1):
         work.say(f"Sweep {sweep}:")
         old = values

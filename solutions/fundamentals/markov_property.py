@@ -30,7 +30,7 @@ def solve(given: Given, work: Work) -> None:
     asked = _asked(whole, work)
     work.say("A decision process has the Markov property if, with its actions and rewards,")
     work.recall(MARKOV_PROPERTY)
-    work.say("Here only the states are considered, so it says: $Pr(s_{t+1} | s_{t-1}, s_t) = Pr(s_{t+1} | s_t)$.")
+    work.say("Here only the states are considered, so it implies: $Pr(s_{t+1} | s_{t-1}, s_t) = Pr(s_{t+1} | s_t)$.")
     if found := _matters(whole, asked):
         _compare(whole, work, found, asked, found)
         rest = tuple(now for now in whole.present if now not in found)
@@ -131,7 +131,13 @@ def _compare(given: Given, work: Work, present: tuple[str, ...], chances: Chance
         if now in matters:
             _contrast(given, work, now, chances)
         else:
-            work.say(f"For $s_t$ = {now} the probabilities of $s_{{t+1}}$ are the same after every history.")
+            first = next(history for history in given.histories if history[1] == now)
+            same = [
+                f"{after} with probability ${chances[(*first, after)]}$"
+                for after in given.outcomes
+                if (*first, after) in chances
+            ]
+            work.say(f"For $s_t$ = {now} the next state is {joined(same)} after every history.")
 
 
 def _contrast(given: Given, work: Work, now: str, chances: Chances) -> None:

@@ -63,7 +63,10 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
         unclipped, clipped = known["unclipped"][time], known["clipped"][time]
         cuts.append(sign(unclipped - clipped) != 0 and sign(objective[time] - clipped) == 0)
         work.say(_reason(time, cut=cuts[-1], inside=sign(unclipped - clipped) == 0))
-    work.answer(_told(cuts))
+    verdict = _told(cuts)
+    if isinstance(verdict, str):
+        work.say(f"So the answer is: {CUT[verdict]}.")
+    work.answer(verdict)
 
 
 def _told(cuts: Sequence[bool]) -> Any:
@@ -102,14 +105,15 @@ def _clipped(work: Work, known: Mapping[str, Any], time: int) -> Value:
 def _reason(time: int, *, cut: bool, inside: bool) -> str:
     if inside:
         return (
-            f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and clipping does not make the gradient zero."
+            f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and clipping does not make "
+            f"$∇_θ L_{{{time}}}$ zero."
         )
     if cut:
         return (
             f"$c_{{{time}}}$ is the smaller term. In it $ρ_{{{time}}}$ is replaced by the bound, which does not "
-            "depend on $θ$: clipping makes the gradient zero."
+            f"depend on $θ$: clipping makes $∇_θ L_{{{time}}}$ zero."
         )
-    return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: clipping does not make the gradient zero."
+    return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: clipping does not make $∇_θ L_{{{time}}}$ zero."
 
 
 def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
@@ -173,7 +177,8 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
     work.say(
         f"Clipping lowers an objective only where the advantage is positive and the ratio above $1$, or the advantage "
         f"negative and the ratio below $1$. That is so at $t = {one}$ alone; the other objectives are the unclipped "
-        f"terms. The mean of all unclipped terms is ${told(unclipped)}$, but $L = {told(objective)}$ is less, so "
+        f"terms. The mean of all unclipped terms is ${told(unclipped)}$, but $L = {told(objective)}$ is less by "
+        f"${told(unclipped - objective)}$, so "
         f"$ρ_{{{one}}}$ is clipped. For such a sample:"
     )
     held = _at_the_bound(work, known, one)
