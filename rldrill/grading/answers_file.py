@@ -18,6 +18,8 @@ from rldrill.typed import typed
 
 #: What the names of files of answers end in.
 SUFFIXES = (".toml", ".json", ".csv", ".jsonl", ".ndjson")
+#: Whose answers a file holds stands among its first bytes.
+_BEGINNING = 4096
 _NAMED = ("student", "number", "problem", "part")
 _COLUMNS = ("student", "problem", "part", "answer")
 _KNOWN = (*_NAMED, "answer")
@@ -133,6 +135,21 @@ def read_answers(path: str | Path) -> HandedIn:
     if not refused and not any(entry.text.strip() for entry in entries):
         raise NothingToGrade(f"{shown(path)}: there are no answers in it; write some, or leave it out.")
     return HandedIn(path, entries, refused)
+
+
+#: Where a file of one student's answers says whose it is.
+_WHOSE = re.compile(r"""^[\s{]*["']?(?:student|number)["']?\s*[=:]\s*["']?([^"'\n,}]+)""", re.MULTILINE)
+
+
+def whose_file(path: str | Path) -> str:
+    """Who seems to have written a file that cannot be read as one of answers; empty where that is not known."""
+    try:
+        with Path(path).open("rb") as file:
+            begun = file.read(_BEGINNING).decode("utf-8", "replace")
+    except OSError:
+        return ""
+    found = _WHOSE.search(begun)
+    return _in_one_line(found[1].strip()) if found else ""
 
 
 def _row(fields: Mapping[str, object], line: int | None, column: int | None, path: Path) -> Row:

@@ -95,7 +95,7 @@ class Assignment:
             not self._ids_printed
         ):  # a sitting in the terminal writes whole IDs; more is not told of what was not printed
             found = version.ids.index(name) if name in version.ids else None
-            return f"{name} is not in this exam" if found is None else found
+            return f"no problem of this exam is called {name}; call it by its number" if found is None else found
         family, level, seed, revision = split_id(name)
         for place, printed_id in enumerate(version.ids):
             if printed_id is None or not looks_like_id(printed_id):

@@ -17,6 +17,8 @@ MISSING = "missing"
 NOT_GRADED = "not graded"
 #: What is said of somebody on the roster without any answers.
 NOTHING = "handed in nothing"
+#: The same of those whose file could not be read; and where it is not known whose file that was.
+UNREAD, PERHAPS = "handed in, could not be read", "nothing was read; perhaps one of the files that could not be read"
 #: No number that is shown has as many digits.
 _FLOAT = 16
 #: How much of the judgement a report tells, the least first.
@@ -153,6 +155,7 @@ class StudentReport:
         extra: problems that were answered and are not in this student's exam, with why they earn nothing; and what else
             somebody should look at.
         others: their other hand-ins, which do not count.
+        unread: where nothing was read of them, what is known of the reason.
     """
 
     student: str
@@ -162,12 +165,13 @@ class StudentReport:
     paths: tuple[str, ...] = ()
     extra: tuple[str, ...] = ()
     others: tuple[str, ...] = ()
+    unread: str = ""
 
     @property
     def remark(self) -> str:
         """What a list of students says beside the points: that somebody handed in nothing, or more than once."""
         if not self.paths:
-            return NOTHING
+            return self.unread or NOTHING
         return f"1 of {len(self.others) + 1} hand-ins" if self.others else ""
 
     @property
@@ -183,7 +187,7 @@ class StudentReport:
             "version": self.version or None,
             "files": list(self.paths),
             "other_files": list(self.others),
-            "handed_in": bool(self.paths),
+            "handed_in": bool(self.paths) or self.unread == UNREAD,
             "points": self.score.to_json(),
             "answers": [part.to_json(feedback) for part in self.parts],
             "not_marked": list(self.extra),

@@ -9,11 +9,21 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from rldrill.files import shown
-from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers
+from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers, whose_file
 from rldrill.grading.assignment import Assignment, Sitting
 from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
-from rldrill.grading.report import NOT_GRADED, Judged, MarkedPart, Report, Score, StudentReport, missing
+from rldrill.grading.report import (
+    NOT_GRADED,
+    PERHAPS,
+    UNREAD,
+    Judged,
+    MarkedPart,
+    Report,
+    Score,
+    StudentReport,
+    missing,
+)
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id, split_id
 from rldrill.spreadsheet import folded
@@ -75,7 +85,7 @@ def verify(
             handed.append(read_answers(path))
             refused += handed[-1].refused
         except (FileError, NothingToGrade) as error:
-            refused.append(Refusal(shown(path), None, "", str(error), error.exit_code))
+            refused.append(Refusal(shown(path), None, whose_file(path), str(error), error.exit_code))
     if settings.strict and any(each.exit_code == FileError.exit_code for each in refused):
         return Report((), tuple(refused))
     run = _Run(settings, refused)
@@ -100,6 +110,7 @@ class _Student:
     """One student's answers, one list for every file."""
 
     sitting: Sitting
+    unread: str = ""
     hand_ins: dict[Path, list[Entry]] = field(default_factory=dict)
     said: dict[str, None] = field(default_factory=dict)
 
@@ -159,7 +170,15 @@ class _Run:
         yield from found.values()
         if self._assignment is not None and self._settings.absent:
             people = ((folded(each.number or each.student), each) for each in self._assignment.people)
-            yield from (_Student(each) for who, each in people if (who,) not in found)
+            yield from (_Student(each, self._unread(each)) for who, each in people if (who,) not in found)
+
+    def _unread(self, sitting: Sitting) -> str:
+        """What is known of somebody of whom nothing was read: whether they handed in something all the same."""
+        names = {folded(name) for name in (sitting.student, sitting.number) if name}
+        unreadable = [each for each in self._refused if each.exit_code == FileError.exit_code]
+        if any(folded(each.student) in names for each in unreadable if each.student):
+            return UNREAD
+        return PERHAPS if any(each.line is None and not each.student for each in unreadable) else ""
 
     def order(self, students: Sequence[_Student]) -> list[int]:
         """The numbers of the students, those of a version one after the other: only its problems are kept meanwhile."""
@@ -186,7 +205,7 @@ class _Run:
         if best is None:
             return None
         others = tuple(path for path in map(shown, student.hand_ins) if path not in best.paths)
-        return replace(best, extra=(*best.extra, *student.said), others=others)
+        return replace(best, extra=(*best.extra, *student.said), others=others, unread=student.unread)
 
     def _graded(
         self, sitting: Sitting, entries: Sequence[Entry], desk: Marker, clock: "_Clock"
@@ -198,8 +217,8 @@ class _Run:
         if not parts and not extra:
             return None
         version = "" if sitting.version is None else sitting.version.code
-        paths = dict.fromkeys(shown(entry.path) for entry in entries)
-        return StudentReport(sitting.student, tuple(parts), sitting.number, version, tuple(paths), extra)
+        paths = tuple(dict.fromkeys(shown(entry.path) for entry in entries))
+        return StudentReport(sitting.student, tuple(parts), sitting.number, version, paths, extra)
 
     def _parts(
         self, slot: int, task: Task, desk: Marker, clock: "_Clock", version: "Printed | None"

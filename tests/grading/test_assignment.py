@@ -244,6 +244,40 @@ def test_whoever_is_on_the_roster_and_handed_in_nothing_counts(tmp_path: Path) -
     assert alone.exit_code == 0
 
 
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("b.json", '{"student": "Ben", "answers": {"1": {"a": NaN}}}'),
+        ("b.json", '{\n  "number": 2,\n  "answers": {"1": {"a": "1", "a": "2"}}\n}'),
+        ("b.toml", 'student = "Ben"\n[answers.1]\na = "1\n'),
+        ("b.jsonl", '{"student": "Ben", "problem": "1", "part": "a", "answer": NaN}\n'),
+    ],
+)
+def test_of_whoever_handed_in_what_cannot_be_read_it_is_not_said_that_they_handed_in_nothing(
+    tmp_path: Path, name: str, content: str
+) -> None:
+    path, _ = exam(tmp_path)
+    roster, handed = tmp_path / "roster.csv", tmp_path / name
+    roster.write_text("student,number\nBen,2\nCem,3\n", encoding="utf-8")
+    handed.write_text(content, encoding="utf-8")
+    report = verify([handed], Settings(assignment=Assignment(path, roster=roster)))
+    assert [each["handed_in"] for each in report.to_json()["students"]] == [True, False]
+    ben, cem = tables.totals(report).splitlines()[1:]
+    assert "handed in, could not be read" in ben
+    assert cem.endswith("handed in nothing")
+    assert "1 handed in nothing" in page.written(report, "reason")
+
+
+def test_where_a_file_tells_not_whose_it_is_nobody_is_said_to_have_handed_in_nothing(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path)
+    roster, handed = tmp_path / "roster.csv", tmp_path / "x.toml"
+    roster.write_text("student,number\nBen,2\nCem,3\n", encoding="utf-8")
+    handed.write_bytes(b"\xff\xfe\x00")
+    report = verify([handed], Settings(assignment=Assignment(path, roster=roster)))
+    assert "handed in nothing" not in tables.totals(report) + page.written(report, "reason")
+    assert tables.totals(report).count("perhaps one of the files that could not be read") == 2
+
+
 def test_a_problem_that_cannot_be_graded_stays_in_what_there_is_to_earn(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

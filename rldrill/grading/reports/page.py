@@ -28,7 +28,7 @@ def written(report: Report, feedback: str) -> str:
     middle = float(100 * median(shares)) if shares else 0.0
     passed = sum(map(report.passed, students))
     points = f"{float(score.points):g} of {score.of} points"
-    absent = sum(not student.paths for student in students)
+    absent = sum(student.remark == NOTHING for student in students)
     head = (
         f"{len(students)} student{'' if len(students) == 1 else 's'}, {points}, median {middle:.3g} %, {passed} passed"
     )
