@@ -348,16 +348,20 @@ def _of_quantity(part: Quantity) -> Iterator[Change]:
         if letters and letters <= COUNTING and not isinstance(argument, Node):
             for step in (1, -1):
                 index = _counted(argument, step)
-                other = part.func(*part.args[:place], index, *part.args[place + 1 :])
+                other = _with_argument(part, place, index)
                 yield "index", other, part, other
         if argument.is_Symbol and argument.name in TWINS:
             twin = sympy.Symbol(TWINS[argument.name])
-            other = part.func(*part.args[:place], twin, *part.args[place + 1 :])
+            other = _with_argument(part, place, twin)
             yield "twin", other, part, other
         if isinstance(argument, Quantity):
             for kind, inner, _, _ in _of_quantity(argument):
-                other = part.func(*part.args[:place], inner, *part.args[place + 1 :])
+                other = _with_argument(part, place, inner)
                 yield kind, other, part, other
+
+
+def _with_argument(part: Quantity, place: int, argument: Expr) -> Expr:
+    return part.func(*part.args[:place], argument, *part.args[place + 1 :])
 
 
 def _counted(index: Expr, step: int) -> Expr:
