@@ -294,7 +294,7 @@ class Outcomes:
         """Two causes, each of other cells, that together do."""
         wrong = frozenset(typed.wrong)
         partly: dict[frozenset[str], Outcome] = {}
-        for name in typed.wrong if len(wrong) > 1 and wrong <= typed.sizes.keys() else ():
+        for name in typed.wrong if wrong <= typed.sizes.keys() else ():
             for outcome in self.single.near_at(typed, name):
                 if outcome.cause.application is None or outcome.change is None:
                     continue

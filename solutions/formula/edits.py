@@ -106,7 +106,7 @@ def _in_one_term(part: Expr, at: sympy.Symbol) -> Iterator[tuple[str, Over, Expr
     elif isinstance(part, SumOver):
         body = part.body
         yield "summand-left-out", part, _but_one(part, at, Mul(sympy.S.Zero, body, evaluate=False))
-        yield "summand-sign", part, _but_one(part, at, Mul(sympy.S.NegativeOne, body, evaluate=False))
+        yield "summand-sign", part, _but_one(part, at, _opposite(body))
         if body.is_Mul and all(factor.is_commutative is not False for factor in body.args):
             for last in range(1, len(body.args)):
                 factors = [_with(factor, {part.index: at}) for factor in body.args[:last]]
