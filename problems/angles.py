@@ -3,14 +3,12 @@
 import re
 from dataclasses import dataclass
 from math import pi
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
-from rldrill.problems import mathematics as maths
 from rldrill.problems.exact import read_fraction
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.mathematics import Math, operator, row, variable
 
 _PI = re.compile(r"([+-]?)\s*(\d{0,6})\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d{1,6}))?")
 
@@ -47,18 +45,6 @@ def read_angle(value: object) -> Angle:
         return Angle(read_fraction(value))
     except ValueError:
         raise ValueError(f"{str(value)[:40]!r} is not a number; write it as 3/4, 0.75 or pi/6") from None
-
-
-def shown(angle: Angle) -> Math:
-    """An angle as mathematics."""
-    number = angle.number
-    if not angle.of_pi:
-        return maths.number(number)
-    above: Any = (
-        variable("π") if abs(number.numerator) == 1 else row(maths.number(abs(number.numerator)), variable("π"))
-    )
-    written = maths.Fraction(above, maths.number(number.denominator)) if number.denominator > 1 else above
-    return row(operator("−"), written) if number < 0 else written
 
 
 def degrees(angle: Angle) -> float:

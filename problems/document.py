@@ -63,6 +63,11 @@ class Equation(Block):
         object.__setattr__(self, "rights", tuple(rights))
         object.__setattr__(self, "notation", in_use())
 
+    @property
+    def is_bare(self) -> bool:
+        """Whether it is right sides alone, with no relation before any of them: the lines of an answer."""
+        return not any(self.signs)
+
     def without_last(self) -> "Equation":
         """The same without its last right side, which is what comes out of it."""
         return replace(self, rights=self.rights[:-1], signs=self.signs[:-1])

@@ -47,7 +47,7 @@ class _Reader:
             self._piece()
         text = "".join(character for character, _ in self._written)
         columns = (*(column for _, column in self._written), self._source.column(len(self._text)))
-        return Source(text, columns[0], columns).part(0, len(text))
+        return Source(text, columns=columns).part(0, len(text))
 
     def _write(self, text: str) -> None:
         column = self._source.column(min(self._at, len(self._text)))

@@ -577,10 +577,10 @@ def sought_parts(given: ValueRun) -> tuple[Part, ...]:
 def errors_asked(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> Part:
     """The part that asks for the TD error of every transition."""
     errors = tuple(f"δ_{{{time}}}" for time in range(len(given.moves)))
-    if len(errors) == 1:
-        return Part(f"What is the TD error $δ_0$ of the transition{in_open(given)}?", Number(), zero=True)
-    ask = f"What are the TD errors ${', '.join(errors)}$ of the transitions, in this order{in_open(given)}?"
-    return Part(ask, Numbers(errors), zero=True)
+    one = len(errors) == 1
+    several = f"What are the TD errors ${', '.join(errors)}$ of the transitions, in this order"
+    ask = "What is the TD error $δ_0$ of the transition" if one else several
+    return Part(f"{ask}{in_open(given)}?", Number() if one else Numbers(errors), zero=True)
 
 
 def after(given: ValueRun | ValueMoves | ActionUpdates) -> str:

@@ -300,8 +300,6 @@ def magnitude(value: Value) -> int:
     for precision in _PRECISIONS:
         with ctx.workprec(precision):
             size = abs(enclosure(value))
-            if not size.is_finite() or not size > 0:
-                continue
             exponent = size.log() / arb(10).log()
             below, nearest = exponent.floor().unique_fmpz(), (exponent + _HALF).floor().unique_fmpz()
         if below is not None:

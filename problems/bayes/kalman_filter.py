@@ -52,14 +52,13 @@ class Given(Givens):
 
     mean: MatrixField = Field(description="The mean of the first belief, a column.")
     covariance: MatrixField = Field(description="The covariance of the first belief.")
-    A: MatrixField = Field(default=_ONE, validate_default=True, description="How the state moves by itself.")
+    A: MatrixField = Field(default=_ONE, description="How the state moves by itself.")
     B: MatrixField = Field(
         default=_ONE,
-        validate_default=True,
         exclude_if=lambda B: B == _ONE,
         description="How the command moves the state.",
     )
-    C: MatrixField = Field(default=_ONE, validate_default=True, description="What the sensor sees of the state.")
+    C: MatrixField = Field(default=_ONE, description="What the sensor sees of the state.")
     process: OpenMatrixField = Field(description="The covariance of the noise of the motion.")
     sensor: OpenMatrixField = Field(description="The covariance of the noise of the sensor.")
     steps: tuple[Event, ...] = Field(

@@ -113,8 +113,9 @@ def draw(level: int, rng: Draws) -> Given:
         return Given(links=(link,), asked="pose")
     arm = rng.choice(_arms())
     asked = rng.choice(("pose", "point") if level == 2 else ("point", "back", "back"))
-    count = 3 if level == 3 and (asked == "point" or rng.chance(Fraction(1, 2))) else 2
-    rows = ({name: rng.choice(texts) for name, texts in row.items()} for row in arm["links"][:count])
+    whole = level == 3 and (asked == "point" or rng.chance(Fraction(1, 2)))
+    used = arm["links"] if whole else arm["links"][:2]
+    rows = ({name: rng.choice(texts) for name, texts in row.items()} for row in used)
     links = tuple(map(Link.model_validate, rows))
     point = tuple(rng.nonzero(-2, 3) for _ in range(3)) if asked in ("point", "back") else None
     return Given(links=links, name=arm["name"], asked=asked, point=point)

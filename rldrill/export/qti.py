@@ -50,7 +50,7 @@ class _Writer(LatexHtml):
 
     def equation(self, equation: Equation) -> str:
         """An equation in a paragraph of its own."""
-        if not any(equation.signs):
+        if equation.is_bare:
             return f"<p>{' '.join(map(self.math, equation.rights))}</p>"
         left = "" if equation.left == EMPTY else element(equation.left)
         links = zip(equation.signs, equation.rights, strict=True)

@@ -10,7 +10,7 @@ from typing import Any
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
 
-_DAY = timedelta(days=1)
+DAY = timedelta(days=1)
 #: So many days ahead are told what is due.
 AHEAD = 7
 
@@ -167,9 +167,9 @@ def _mistakes(attempts: Iterable[Attempt], number: int) -> Iterable[Mistake]:
 
 
 def _streak(days: set[date], today: date) -> int:
-    last = today if today in days else today - _DAY
+    last = today if today in days else today - DAY
     length = 0
-    while last - length * _DAY in days:
+    while last - length * DAY in days:
         length += 1
     return length
 

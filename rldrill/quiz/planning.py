@@ -3,12 +3,13 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from datetime import UTC, date, datetime, time, timedelta
+from datetime import UTC, date, datetime, time
 from itertools import takewhile
 
 from rldrill.exam.expected import minutes
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
+from rldrill.history.progress import DAY
 from rldrill.problems.catalogue import topics
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.mistakes import called
@@ -21,7 +22,6 @@ _MIXED_TOPICS, _MIXED_DUE = 1, 3
 _NEW_ONE_IN = 5
 #: In so many days before the exam everything is seen once more.
 _LAST_DAYS = 7
-_DAY = timedelta(days=1)
 
 
 def skills(families: Iterable[str] | None = None) -> tuple[Skill, ...]:
@@ -86,12 +86,12 @@ class Plan:
         memory = self.memories[skill]
         if self._exam is None:
             return memory.due
-        left = (self._exam - memory.last) // _DAY
+        left = (self._exam - memory.last) // DAY
         days = max(1, min(_LAST_DAYS, left // 2))
-        latest = self._exam - _DAY * (1 + self._place[skill] % days)
+        latest = self._exam - DAY * (1 + self._place[skill] % days)
         if memory.last < latest:
             return min(memory.due, latest)
-        return min(memory.due, memory.last + _DAY) if len(memory.ratings) == 1 else memory.due
+        return min(memory.due, memory.last + DAY) if len(memory.ratings) == 1 else memory.due
 
     def due(self, now: datetime) -> list[Skill]:
         """What is due, the least remembered first; before what went wrong twice comes the level below."""
@@ -101,7 +101,7 @@ class Plan:
 
     def again(self, skill: Skill, now: datetime) -> str:
         """When a skill that was answered is asked again: tomorrow, in 4 days."""
-        days = math.ceil((self.due_at(skill) - now) / _DAY)
+        days = math.ceil((self.due_at(skill) - now) / DAY)
         return f"in {days} days" if days > 1 else "tomorrow"
 
     def _within_reach(self, skill: Skill) -> Skill:
@@ -132,7 +132,7 @@ class Plan:
         wanted = max(rest, self._number // _NEW_ONE_IN)
         if self._exam is not None:
             unseen = sum(skill not in self.memories for skill in self._order)
-            days = max(1, (self._exam - now) // _DAY - _LAST_DAYS)
+            days = max(1, (self._exam - now) // DAY - _LAST_DAYS)
             wanted = max(wanted, min(math.ceil(unseen / days), self._number // 2))
         return wanted
 
@@ -197,7 +197,7 @@ class Plan:
         mistakes = Counter(
             name
             for attempt in self._attempts
-            if attempt.family == skill.family and now - attempt.time < 30 * _DAY
+            if attempt.family == skill.family and now - attempt.time < 30 * DAY
             for name in attempt.misconceptions[:1]
         )
         if memory is None:
@@ -208,7 +208,7 @@ class Plan:
             return f"because of “{called(name)}”, {_times(times)}"
         if memory.lapses:
             return "because it went wrong the last time"
-        days = (now - memory.last) // _DAY
+        days = (now - memory.last) // DAY
         return f"because you saw it {_days(days)}"
 
 

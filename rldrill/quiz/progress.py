@@ -2,14 +2,14 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from datetime import date, timedelta
+from datetime import date
 
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from rldrill.history.progress import Day, Mistake, Progress
+from rldrill.history.progress import DAY, Day, Mistake, Progress
 from rldrill.quiz.mistakes import called
 from rldrill.render.terminal import words
 
@@ -21,7 +21,6 @@ _WEEKS, _LINES = 12, 7
 _SHADES, _ASCII = "·░▒▓█", ".-+x#"
 #: From so many answers on a day is as dark as it gets.
 _FULL = 20
-_DAY = timedelta(days=1)
 #: So many of the mistakes have a command that drills them.
 _DRILLS = 3
 
@@ -101,11 +100,11 @@ class _Calendar:
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         shades = _SHADES if options.encoding.startswith("utf") else _ASCII
         last = max(self.answers)
-        monday = last - last.weekday() * _DAY - 7 * (_WEEKS - 1) * _DAY
+        monday = last - last.weekday() * DAY - 7 * (_WEEKS - 1) * DAY
         for weekday in range(7):
-            days = (monday + (weekday + 7 * week) * _DAY for week in range(_WEEKS))
+            days = (monday + (weekday + 7 * week) * DAY for week in range(_WEEKS))
             cells = (_shade(shades, self.answers.get(day, 0)) if day <= last else " " for day in days)
-            yield Text(f"{monday + weekday * _DAY:%a}  {' '.join(cells)}")
+            yield Text(f"{monday + weekday * DAY:%a}  {' '.join(cells)}")
 
 
 def _shade(shades: str, answers: int) -> str:

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from datetime import timedelta
 from enum import Enum
 from itertools import islice
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from rich.text import Text
 from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
 from rldrill.history.memory import Skill
+from rldrill.history.progress import DAY
 from rldrill.problems.document import Equation
 from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
@@ -71,7 +71,6 @@ _BESIDES = 4
 _FIVE, _LEVEL = 5, 2
 #: After so many misses the next hint is the first line with the numbers in.
 _MISSES = 3
-_DAY = timedelta(days=1)
 #: The names of places that nobody types.
 _PLACES = re.compile(r"(?:row \d+, column \d+|entry \d+): ")
 
@@ -462,7 +461,7 @@ class Screen:
         due = None
         if self._plan is not None:
             self._plan.learn(self._recorder.attempts)
-            due = len(self._plan.due(utc_now() + _DAY))
+            due = len(self._plan.due(utc_now() + DAY))
         for line in ending(session, seconds, due):
             self._print(line)
 

@@ -70,7 +70,7 @@ class Html:
     def equation(self, equation: Equation) -> str:
         """An equation, its right sides one under the other."""
         links = list(zip(equation.signs, equation.rights, strict=True))
-        if not any(equation.signs):  # mathematics that stands side by side where there is room
+        if equation.is_bare:  # mathematics that stands side by side where there is room
             sides = "".join(f'<span class="wide">{self.math(right)}</span>' for right in equation.rights)
             return f'<div class="flow">{sides}</div>'
         left = "" if equation.left == EMPTY else element(equation.left)
@@ -120,7 +120,7 @@ class LatexHtml(Html):
 
     def equation(self, equation: Equation) -> str:
         """An equation on lines of its own."""
-        if not any(equation.signs):
+        if equation.is_bare:
             return f"<p>{' &emsp; '.join(map(self.math, equation.rights))}</p>"
         written = rf"\[{latex_block_equation(equation)}\]"
         return f"<p>{escape(written)}</p>"

@@ -33,8 +33,8 @@ def latex_block(block: Block) -> str:
             body = "\n".join(lines)
             table = f"\\begin{{tabular}}{{|{'c|' * len(header)}}}\\hline\n{body}\n\\end{{tabular}}"
             return f"\n\\fitted{{{table}}}\n"
-        case Equation(_, rights, signs):
-            if not any(signs):
+        case Equation(rights=rights):
+            if block.is_bare:
                 sides = " \\quad ".join(f"$\\displaystyle {latex_typed(right)}$" for right in rights)
                 return f"\n{{\\raggedright {sides}\\par}}\n"
             return f"\n\\fitted{{$\\displaystyle {typed(latex_block_equation(block))}$}}\n"

@@ -18,7 +18,7 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
-from rldrill.problems.mathematics import EMPTY, Math, Row
+from rldrill.problems.mathematics import Math, Row
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.differences import differences
@@ -91,7 +91,7 @@ def renderable(block: Block) -> RenderableType:
             return _indented(_Spelled(lambda spelling, width: _table(block, spelling, width)))
         case Equation():
             equation = _Spelled(lambda spelling, width: _equation(block, spelling, width))
-            return _indented(equation) if _is_named(block) else equation
+            return equation if block.is_bare else _indented(equation)
         case Beside(blocks):
             return _Beside(blocks)
         case Picture():
@@ -238,15 +238,10 @@ def _paragraph(header: list[Text], line: list[Text]) -> Text:
     return Text(", ").join(told)
 
 
-def _is_named(equation: Equation) -> bool:
-    """Whether it says itself what it is worth; else it is the lines of an answer."""
-    return equation.left != EMPTY or any(equation.signs)
-
-
 def _equation(equation: Equation, spelling: Spelling, width: int) -> RenderableType:
     left = "\n".join(spelling.stacked(equation.left))
     signs = [spelling.plain(sign) for sign in equation.signs]
-    named = _is_named(equation)
+    named = not equation.is_bare
     room = width - (_wide(left.split("\n")) + _wide(signs) + 2 if named else 0)
     grid = RichTable.grid(padding=(0, 1))
     if named:

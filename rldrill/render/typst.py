@@ -42,7 +42,7 @@ def block(item: Block, room: float = PAGE) -> str:
             drawn = f"grid-table({len(header)}, table.header({first}){cells})"
             return f"#block({drawn})\n" if _width(item) <= room else f"#wide-block({drawn})\n"
         case Equation(left, rights, signs):
-            if left == EMPTY and not any(signs):
+            if item.is_bare:
                 return _apart(rights, room)
             links = "".join(
                 f", (${relation(sign)}$, {breakable(right)})" for sign, right in zip(signs, rights, strict=True)

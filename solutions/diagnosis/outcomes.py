@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import combinations
-from math import isnan, nan
+from math import isclose, isnan, nan
 from typing import Any
 
 from rldrill.problems.parts import Part
@@ -25,6 +25,10 @@ _REPLAYS = 150
 _FIRST, _TRIES = 12, 150
 #: So exactly a straight line is one, and a cell is that of the key.
 _STRAIGHT = 1e-9
+
+
+def _alike(one: float, other: float) -> bool:
+    return isclose(one, other, rel_tol=_STRAIGHT, abs_tol=_STRAIGHT)
 
 
 @dataclass(eq=False, slots=True)
@@ -165,7 +169,7 @@ class Outcomes:
             name
             for name, size, right in zip(self.names, sizes, self.sizes, strict=True)
             if (
-                abs(size - right) > _STRAIGHT * (1 + abs(right))
+                not _alike(size, right)
                 if not isnan(size - right)
                 else cells is None or not equal(cells[name], self.key[name])
             )
@@ -250,17 +254,16 @@ class Outcomes:
             heights.append([_size(cells[name]) for name in self.names])
         slopes = [one - at for at, one, _ in zip(*heights, strict=True)]
         for at, slope, minus in zip(heights[0], slopes, heights[2], strict=True):
-            if not abs(at - 3 * slope - minus) <= _STRAIGHT * (abs(minus) + 1):
+            if not _alike(at - 3 * slope, minus):
                 return
         if not any(slopes):
             return
-        second = self.search.applications[number] if number < len(self.search.applications) else None
-        formula = second.formula if second else None
+        second = self.search.applications[number]
         start = approximate(value)
         for kind, weight, edit, other in likely(right, known, value):
             way = approximate(other) - start
             sizes = tuple(at + slope * way for at, slope in zip(heights[0], slopes, strict=True))
-            then = Cause(kind, weight, second, formula, edit, was=value, became=other)
+            then = Cause(kind, weight, second, second.formula, edit, was=value, became=other)
             both = replace(first, weight=first.weight * weight / 100, then=then)
             self.double.add(Outcome(both, sizes, self._spoilt(sizes), Change(values={**values, number: other})))
 
@@ -291,7 +294,7 @@ class Outcomes:
         """Two causes, each of other cells, that together do."""
         wrong = frozenset(typed.wrong)
         partly: dict[frozenset[str], Outcome] = {}
-        for name in typed.wrong if len(wrong) > 1 and wrong <= typed.sizes.keys() else ():
+        for name in typed.wrong if wrong <= typed.sizes.keys() else ():
             for outcome in self.single.near_at(typed, name):
                 if outcome.cause.application is None or outcome.change is None:
                     continue
@@ -370,7 +373,7 @@ class _Line:
         line = cls(start, base, list(zip(*slopes, strict=True)))
         for (other, _), row in zip(answered[len(own) :], heights[len(own) :], strict=True):
             expected = line._from([approximate(each) - at for each, at in zip(other or (), start, strict=True)])
-            if not all(abs(one - two) <= _STRAIGHT * (abs(two) + 1) for one, two in zip(expected, row, strict=True)):
+            if not all(map(_alike, expected, row)):
                 return None
         return line
 

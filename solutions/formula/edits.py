@@ -106,7 +106,7 @@ def _in_one_term(part: Expr, at: sympy.Symbol) -> Iterator[tuple[str, Over, Expr
     elif isinstance(part, SumOver):
         body = part.body
         yield "summand-left-out", part, _but_one(part, at, Mul(sympy.S.Zero, body, evaluate=False))
-        yield "summand-sign", part, _but_one(part, at, Mul(sympy.S.NegativeOne, body, evaluate=False))
+        yield "summand-sign", part, _but_one(part, at, _opposite(body))
         if body.is_Mul and all(factor.is_commutative is not False for factor in body.args):
             for last in range(1, len(body.args)):
                 factors = [_with(factor, {part.index: at}) for factor in body.args[:last]]
@@ -348,16 +348,20 @@ def _of_quantity(part: Quantity) -> Iterator[Change]:
         if letters and letters <= COUNTING and not isinstance(argument, Node):
             for step in (1, -1):
                 index = _counted(argument, step)
-                other = part.func(*part.args[:place], index, *part.args[place + 1 :])
+                other = _with_argument(part, place, index)
                 yield "index", other, part, other
         if argument.is_Symbol and argument.name in TWINS:
             twin = sympy.Symbol(TWINS[argument.name])
-            other = part.func(*part.args[:place], twin, *part.args[place + 1 :])
+            other = _with_argument(part, place, twin)
             yield "twin", other, part, other
         if isinstance(argument, Quantity):
             for kind, inner, _, _ in _of_quantity(argument):
-                other = part.func(*part.args[:place], inner, *part.args[place + 1 :])
+                other = _with_argument(part, place, inner)
                 yield kind, other, part, other
+
+
+def _with_argument(part: Quantity, place: int, argument: Expr) -> Expr:
+    return part.func(*part.args[:place], argument, *part.args[place + 1 :])
 
 
 def _counted(index: Expr, step: int) -> Expr:

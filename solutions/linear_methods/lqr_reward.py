@@ -82,7 +82,7 @@ def _summed(given: Given) -> tuple[float, float]:
     for time in range(given.horizon + 1):
         now = linear_quadratic.arrays(given, time)
         ended = time == given.horizon and not given.plain
-        feedback = -linear_quadratic.array(by_time(given.L, 0 if ended else time)) * (not ended)
+        feedback = np.zeros(now["B"].T.shape) if ended else -linear_quadratic.array(by_time(given.L, time))
         both = np.concatenate([state, feedback @ state])
         weights = np.block([[now["Q"], now["N"]], [now["N"].T, now["R"]]])
         rewards.append(-(at(given.gamma) ** time) * float(np.einsum("i,ij,j", both, weights, both)))

@@ -420,6 +420,7 @@ TABLES = [
     "warm: 5/2, cool: 7/2",
     "V(cool): 3.5; V(warm): 2.5",
     "V_cool = 3.5, V_{warm} = 2.5",
+    "{cool}: 3.5, {warm}: 2.5",
     "3.5, 2.5",
     "[3.5 2.5]",
     "{cool: 3.5, warm: 2.5}",

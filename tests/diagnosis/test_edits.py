@@ -1,11 +1,13 @@
 """Edits of formulas: what somebody may write instead, found in the expression alone."""
 
 import pytest
+from sympy import Expr
 
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, edits, probes
+from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bayes import BAYES
@@ -102,4 +104,10 @@ def test_a_place_of_a_formula_takes_another_value() -> None:
 def test_every_edit_of_every_formula_is_another_formula(formula) -> None:
     for edit in edits(formula.right):
         assert edit.kind in IN_ONE_TERM or edit.right != formula.right
+        assert _arguments(edit.right) <= _arguments(formula.right)
         assert (edit.once is not None) == bool(edit.within)
+
+
+def _arguments(expression: Expr) -> set[tuple[type[Quantity], int]]:
+    """How many arguments each quantity has; an edit gives none more or fewer."""
+    return {(type(part), len(part.args)) for part in expression.atoms(Quantity)}

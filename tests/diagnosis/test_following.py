@@ -50,6 +50,13 @@ def test_the_first_line_that_departs_is_named_and_the_rest_follows(run: rldrill.
     assert followed.lines[0].step == 0
 
 
+#: The second update without γ, 8 + 1/2·(−3 + 10 − 8), the first one without it, 8 + 1/2·(8 + 8 − 8), and anything.
+@pytest.mark.parametrize("value", ["7.5", "12", "123/7"])
+def test_a_line_without_a_name_is_held_against_the_steps_that_are_left(run: rldrill.Exercise, value: str) -> None:
+    followed = run.follow(["10", value])
+    assert [line.step for line in followed.lines] == [0, 1]
+
+
 def test_a_slip_of_arithmetic_is_told_from_a_wrong_formula(run: rldrill.Exercise) -> None:
     followed = run.follow(["V(cave) = 10", "V(floor) = 8 + 1/2*(-6) = 4"])
     assert [line.standing for line in followed.lines] == ["right", "miscalculated"]

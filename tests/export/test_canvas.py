@@ -127,8 +127,12 @@ def test_what_is_to_choose_has_numbers_for_names_and_a_right_one_in_every_place(
             if each.find(f"{QTI}setvar") is not None
         ]
         assert sorted(set(right)) == sorted(places)
+        blanks = [each.findtext(f"{QTI}material/{QTI}mattext") for each in item.iter(f"{QTI}response_lid")]
         if kind(item) == "multiple_dropdowns_question":
-            assert all(f"[{place.removeprefix('response_')}]" in shown(item) for place in places)
+            assert blanks == [place.removeprefix("response_") for place in places]
+            assert all(f"[{blank}]" in shown(item) for blank in blanks)
+        else:
+            assert blanks == [None]
 
 
 @pytest.mark.parametrize("practice", [False, True])

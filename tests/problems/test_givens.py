@@ -4,12 +4,14 @@ from itertools import product
 from typing import Any
 
 import pytest
+from pydantic import ValidationError
 
 import rldrill
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import trusted
+from rldrill.problems.temporal_difference.sample_average import Given as SampleAverage
 from rldrill.solutions.drawing import draw
 
 MDP = {
@@ -71,6 +73,13 @@ def test_givens_survive_being_written_and_read(name: str) -> None:
     for level in family(name).levels:
         problem = draw(name, level, 5).problem
         assert problem.family.read(problem.data()["given"]) == problem.given
+
+
+def test_givens_are_checked_unless_they_are_our_own_draws() -> None:
+    with pytest.raises(ValidationError):
+        SampleAverage(counts="none")
+    with trusted():
+        assert SampleAverage(counts="none").model_fields_set == {"counts"}
 
 
 @pytest.mark.parametrize("name", families())

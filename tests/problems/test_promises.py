@@ -1,16 +1,21 @@
 """What a family's draws promise: numbers with which roots and logarithms come out, worked out here by themselves."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from math import isqrt
 from typing import Any
 
+import pytest
+
 import rldrill
 from rldrill.problems.catalogue import family
+from rldrill.problems.control import sarsa_lambda
 from rldrill.problems.draws import Draws
 from rldrill.problems.expressions import worked_out
-from rldrill.problems.family import trusted
+from rldrill.problems.family import Problem, trusted
+from rldrill.problems.temporal_difference import td_lambda_backward, td_zero
+from rldrill.solutions.solution import solve
 
 
 def drawn(name: str, levels: tuple[int, ...], number: int = 60) -> Iterator[Any]:
@@ -146,3 +151,17 @@ def test_whoever_has_a_place_goes_left_or_right_or_stays() -> None:
     for given in drawn("linear-value", (2, 3)):
         if given.bumps is not None:
             assert set(given.actions) <= {"left", "right", "stay"}
+
+
+@pytest.mark.parametrize("family_of", [sarsa_lambda, td_lambda_backward, td_zero])
+def test_values_that_are_looked_at_when_drawing_are_those_that_are_found(family_of: Any) -> None:
+    name, compared = family_of.__name__.rpartition(".")[2].replace("_", "-"), 0
+    for given in drawn(name, (2,), 15):
+        answers = solve(Problem(family(name), given)).answers
+        found = list(answers.values())[-1]
+        if given.parameters() or not isinstance(found, Mapping):
+            continue
+        learned = family_of._learned(given)
+        assert {key: Fraction(str(value)) for key, value in found.items()} == {key: learned[key] for key in found}
+        compared += 1
+    assert compared > 5

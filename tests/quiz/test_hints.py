@@ -2,6 +2,7 @@
 
 import rldrill
 from rldrill.exercise import Exercise
+from rldrill.problems.document import Paragraph
 from rldrill.quiz.hints import ladder
 from rldrill.render.terminal import plain
 
@@ -39,8 +40,12 @@ def test_states_that_a_sum_runs_over_are_no_symbol_to_tell() -> None:
         assert len(rungs(exercise, part.label)) > 1
 
 
-def test_every_family_has_hints_to_every_part() -> None:
+def test_every_family_has_hints_to_every_part_and_sentences_stand_with_what_they_introduce() -> None:
     for name in rldrill.families():
         for level in (1, 2, 3):
             exercise = rldrill.draw(name, level, 5015)
-            assert all(ladder(exercise, part.label) for part in exercise.parts)
+            for part in exercise.parts:
+                hints = ladder(exercise, part.label)
+                assert hints
+                working = [rung.blocks for rung in hints if rung.is_working]
+                assert not any(isinstance(blocks[-1], Paragraph) for blocks in working[:-1])

@@ -127,6 +127,12 @@ def test_without_an_exam_intervals_are_longer() -> None:
     assert Plan(ORDER, log, 10, NOW, exam).due_at(skill).date() < exam
 
 
+def test_what_was_asked_at_the_last_moment_before_the_exam_is_not_asked_at_once_again() -> None:
+    skill, last = Skill("td-zero", 1), datetime(2026, 12, 9, tzinfo=UTC)  # the day before begins
+    plan = Plan((skill,), [answered(skill, last)], 10, last, date(2026, 12, 10))
+    assert plan.due_at(skill) > last
+
+
 def test_it_is_said_when_a_skill_comes_again() -> None:
     skill = Skill("td-zero", 1)
     for outcomes, said in ((["wrong"], "tomorrow"), (["right"], "in "), (["right", "wrong"], "tomorrow")):

@@ -39,6 +39,7 @@ def _marked(math: Math) -> list[Math]:
         ("r_t + γ V", "r_{t+1} + γ V", ["t"]),
         ("V + α r", "V - α r", ["+"]),
         ("r + γ V - V", "r + γ V", ["V"]),  # a term too many; its sign stays as it is
+        ("r + V", "r", ["V"]),
         ("r", "r + γ V", ["r"]),
         ("V + α (r - V)", "V + α (r + γ V - V)", ["r"]),
         ("x", "(a + b) / 2", ["x"]),

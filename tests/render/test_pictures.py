@@ -23,14 +23,17 @@ from rldrill.problems.pictures import (
     Arrow,
     BackupDiagram,
     Bars,
+    Branch,
     Bumps,
     GridPicture,
+    Node,
     Pendulum,
     Picture,
     StateDiagram,
     Timeline,
 )
 from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.render.pictures.backup import scene as drawn_backup
 from rldrill.render.pictures.scene import Caption, Ellipse, Scene, bounds_of, text_width
 from rldrill.render.pictures.scene import Path as Lines
 from rldrill.render.pictures.scenes import scene_of
@@ -258,6 +261,14 @@ def test_a_state_diagram_is_a_tree_in_the_terminal() -> None:
         "└─● fast ─┬▶ ○ cool  1/2, 2",
         "          └▶ □ over  1/2, −10",
     ]
+
+
+def test_the_title_of_a_backup_diagram_stands_over_its_middle() -> None:
+    root = Node("state", branches=(Branch(Node("action"), "a long label"), Branch(Node("action"))))
+    box, title = drawn_backup(root).box, drawn_backup(root, "Q").shapes[-1]
+    assert isinstance(title, Caption)
+    assert abs(box.left + box.right) > 1, "the diagram is not the same on both sides"
+    assert title.at[0] - box.left == pytest.approx(box.right - title.at[0])
 
 
 def test_a_backup_diagram_in_the_terminal() -> None:

@@ -3,6 +3,7 @@
 import operator
 from collections.abc import Callable
 from fractions import Fraction
+from itertools import permutations
 
 import pytest
 import sympy
@@ -33,6 +34,7 @@ from rldrill.solutions.exact import (
     magnitude,
     monomial,
     order,
+    ordered,
     parameters,
     sign,
     simplest,
@@ -356,6 +358,13 @@ def test_closed_forms_are_ordered_without_being_subtracted() -> None:
     assert order(sympy.sqrt(2), sympy.sqrt(3)) == -1
     assert order(sympy.E, fmpq(2)) == 1
     assert order(sympy.log(4), 2 * sympy.log(2)) == 0
+
+
+def test_sums_begin_with_the_constant_and_end_with_what_is_no_polynomial() -> None:
+    x, y, z = sympy.symbols("x y z")
+    terms = (sympy.Integer(7), z, 3 * y**2, x * y * z, 1 / x)  # of degrees 0, 1, 2, 3 and none
+    for mixed in permutations(terms):
+        assert ordered(sympy.Add(*mixed, evaluate=False)).args == terms
 
 
 def test_a_letter_may_fall_out_of_what_is_ordered() -> None:

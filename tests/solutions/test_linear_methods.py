@@ -1,5 +1,6 @@
 """Identities between the linear methods: LQR, its horizon, its linearisation, DDP."""
 
+from collections import Counter
 from fractions import Fraction
 from itertools import product
 from json import dumps, loads
@@ -531,6 +532,20 @@ def test_the_root_solves_the_quadratic_and_the_riccati_equation(
     assert abs((system.equation.right.subs(numbers) - root).evalf(30)) < 1e-25
     gain = system.gain.right.subs(numbers).evalf(30)
     assert abs(3 - 2 * gain) * (sympy.sqrt(numbers[gamma]) if discounted else 1) < 1, "the closed loop is not stable"
+
+
+@pytest.mark.parametrize("notation", [*NOTATIONS.values()], ids=[*NOTATIONS])
+@pytest.mark.parametrize(("discounted", "crossed"), [*product((False, True), repeat=2)])
+def test_brackets_are_multiplied_out_term_by_term(notation: Notation, discounted: bool, crossed: bool) -> None:
+    factors, terms, _ = scalar_system(notation, discounted=discounted, crossed=crossed).cleared
+    for product_, sum_ in zip(factors, terms, strict=True):
+        assert _terms(sum_) == _terms(product_)
+
+
+def _terms(expression: sympy.Expr) -> Counter[sympy.Expr]:
+    """What each summand comes to by itself: nothing of one is taken off another."""
+    summands = sympy.Add.make_args(expression)
+    return Counter(term for summand in summands for term in sympy.Add.make_args(sympy.expand(summand)))
 
 
 def test_the_modes_have_letters_of_their_own_and_come_from_the_matrices() -> None:

@@ -282,6 +282,14 @@ def test_where_value_iteration_does_not_come_to_the_optimum_the_working_says_so(
     assert swept["a"] == 5
 
 
+def test_that_one_value_has_settled_is_not_enough_for_value_iteration() -> None:
+    # c is worth 0 from the first sweep on, a only from the second one: −2, then −2 + 1.
+    rows: Rows = [["a", "go", "b", 1, -2], ["b", "go", "c", 1, 1], ["c", "go", "end", 1, 0], ["c", "stay", "c", 1, 0]]
+    mdp = {"transitions": rows, "terminal": ["end"]}
+    assert best(rows)["a"] == {"a": -1, "b": 1, "c": 0}
+    assert "settles" not in working("optimal-value", mdp=mdp, gamma=1)
+
+
 def test_greedy_for_its_own_values_is_not_enough() -> None:
     # Going costs 1. Staying is worth as much by the equation, −1, and so improvement keeps to going; but it is worth 0.
     mdp = {"transitions": [["a", "stay", "a", 1, 0], ["a", "go", "end", 1, -1]], "terminal": ["end"]}
