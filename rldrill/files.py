@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from rldrill.problems.errors import FileError
+from rldrill.problems.expressions import GREEK
 
 #: What the names of files that hold data end in, and of those that hold a model.
 DATA_SUFFIXES = (".toml", ".json")
@@ -24,6 +25,12 @@ _TOML_PLACE = re.compile(r" \((?:at line (\d+), column (\d+)|at end of document)
 #: A key with more dots than there may be brackets: reading it takes time and memory by the square of them.
 _KEY = r"(?:[\w-]++|\"(?:[^\"\\\n]|\\.)*+\"|'[^'\n]*+')[ \t]*+"
 _DOTTED = re.compile(rf"(?<![^\s.\[{{,])(?:{_KEY}\.[ \t]*+){{{_DEEPEST}}}", re.ASCII)
+#: A fraction that is no text, and what is one; a line of YAML.
+_BARE_FRACTION = re.compile(r"(?<![\w./-])-?\d+/\d+(?![\w./-])")
+_QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")
+_YAML = re.compile(r"\s*(?:- )?[\w-]+:(?:\s|$)")
+_SPELLED = {glyph: name for name, glyph in GREEK.items()}
+_KEY_SHOWN = 40
 _NO_NUMBER = re.compile(r"[+-]?(?:inf|nan)")
 
 
@@ -119,11 +126,11 @@ def parse_line(text: str, path: str | Path, line: int) -> object:
 
 
 class _BrokenError(ValueError):
-    """Broken syntax at a line and column of the text, or at its end."""
+    """Broken syntax at a line and column of the text, or at its end, and what to do about it."""
 
-    def __init__(self, reason: str, line: int | None, column: int | None) -> None:
+    def __init__(self, reason: str, line: int | None, column: int | None, cure: str = "fix it there") -> None:
         super().__init__(reason)
-        self.line, self.column = line, column
+        self.line, self.column, self.cure = line, column, cure
 
 
 class _RefusedError(ValueError):
@@ -140,7 +147,7 @@ def _parsed(read: Callable[[str], object], text: str, where: str, line: int | No
             place = f"{where}, at its end"
         else:
             place = f"{where}, line {error.line + (line or 1) - 1}, column {error.column}"
-        raise FileError(f"{place}: the syntax is broken ({error}); fix it there.") from None
+        raise FileError(f"{place}: the syntax is broken ({error}); {error.cure}.") from None
     except RecursionError:
         raise FileError(f"{here}: {_TOO_DEEP}") from None
     except _RefusedError as error:
@@ -159,7 +166,22 @@ def _toml(text: str) -> object:
         message = str(error)
         place = _TOML_PLACE.search(message)
         line, column = (int(place[1]), int(place[2])) if place and place[1] else (None, None)
-        raise _BrokenError(_begun_small(_TOML_PLACE.sub("", message)), line, column) from None
+        cure = _cure(message, text.split("\n")[line - 1 if line else -1])
+        raise _BrokenError(_begun_small(_TOML_PLACE.sub("", message)), line, column, cure) from None
+
+
+def _cure(message: str, line: str) -> str:
+    """What to do about a line of TOML that cannot be read, by the most usual slips."""
+    key = line.partition("=")[0].strip()
+    if "overwrite" in message:
+        return f"{key[:_KEY_SHOWN]} stands twice; keep one of them"
+    if found := _BARE_FRACTION.search(_QUOTED.sub("", line)):
+        return f'a fraction stands in quotes: "{found[0]}"'
+    if any(glyph in key for glyph in GREEK.values()):
+        return f"names are spelled out there: {''.join(_SPELLED.get(sign, sign) for sign in key[:_KEY_SHOWN])}"
+    if _YAML.match(line):
+        return "write name = value, as TOML has it; YAML is not read"
+    return "fix it there"
 
 
 def _json(text: str) -> object:
