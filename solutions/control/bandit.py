@@ -7,8 +7,9 @@ from sympy import Mul
 
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
-from rldrill.solutions.exact import Value, decimal, exact, to_sympy, told
+from rldrill.solutions.exact import NoSolution, Value, decimal, exact, to_sympy, told
 from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -31,16 +32,6 @@ from rldrill.solutions.sheet.control import (
     UCB_BALANCE,
 )
 from rldrill.solutions.work import Equality, Work
-
-MISCONCEPTIONS = (
-    ALL_PULLS_COUNTED,
-    TIME_FOR_LOG,
-    OWN_COUNT_FORGOTTEN,
-    PULLS_FOR_TIME,
-    BANDIT_WITHOUT_EXP,
-    BASELINE_FORGOTTEN,
-    OTHERS_UNCHANGED,
-)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -95,6 +86,22 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
                 f"UCB takes {chosen[0]}, although {greedy[0]} has the {better} average: {chosen[0]} is less certain."
             )
         work.answer({NEXT: chosen})
+
+
+@slip(
+    "bonus-ignored",
+    "UCB takes the arm whose bound is greatest, bonus included; the greatest average alone is the greedy choice.",
+    when=lambda given: isinstance(given, Bounds),
+)
+def greedy_for_ucb(given: Bounds, work: Work) -> None:
+    """The arm with the greatest average, where that is another one."""
+    averages = _averages(given, work)
+    known = _counted(given, averages) | {"c": exact(given.c)}
+    bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.tried})
+    greedy = arg_max(tuple(averages), tuple(averages.values()))
+    if set(greedy) & set(given.untried or arg_max(tuple(bounds), tuple(bounds.values()))):
+        raise NoSolution("UCB takes the greedy arm, too")
+    work.answer({NEXT: greedy})
 
 
 def _counted(given: Averaged, averages: dict[str, Value]) -> dict[str, Any]:
@@ -153,6 +160,18 @@ def _follow_gradient(given: Preferences, work: Work) -> None:
     known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.every_arm})
     known["rbar"] = {known["n"]: work.step(REWARD_BASELINE, r=known["r"], n=known["n"])}
     work.answer({arm: work.step(GRADIENT_BANDIT, a=arm, **known) for arm in given.every_arm})
+
+
+MISCONCEPTIONS = (
+    ALL_PULLS_COUNTED,
+    TIME_FOR_LOG,
+    OWN_COUNT_FORGOTTEN,
+    PULLS_FOR_TIME,
+    greedy_for_ucb,
+    BANDIT_WITHOUT_EXP,
+    BASELINE_FORGOTTEN,
+    OTHERS_UNCHANGED,
+)
 
 
 def oracle(given: Given) -> Answers:

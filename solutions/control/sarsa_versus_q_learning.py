@@ -146,17 +146,20 @@ def _change(given: Given, other: Given, work: Work, formula: Formula, alpha: Val
         if formula is SARSA_TARGET
         else ("Q-learning", "in none of them is this value the greatest")
     )
-    changed = Work()
-    before, after = (
-        [target for _, target in _along(run, spare, formula, alpha)]
-        for run, spare in ((given, Work()), (other, changed))
-    )
-    steps = [line for line in changed.lines if isinstance(line, Step) and line.formula is formula]
-    for old, new, step in zip(before, after, steps, strict=True):
-        if old != new:
-            work.say(f"{name}'s target $y_{{{step.known['t']}}}$ would not be ${told(old)}$, but")
-            work.lines.append(step)
+    steps = []
+    for run in (given, other):
+        spare = Work()
+        _along(run, spare, formula, alpha)
+        steps.append([line for line in spare.lines if isinstance(line, Step)])
+    moved: list[Step] = []
+    for old, new in zip(*steps, strict=True):
+        if old.value == new.value:
+            continue
+        if new.formula is formula:
+            work.say(f"{name}'s target $y_{{{new.known['t']}}}$ would not be ${told(old.value)}$, but")
+            work.lines += [*moved, new]
             return True
+        moved.append(new)
     work.say(f"{name}'s targets would stay the same: {why}.")
     return False
 

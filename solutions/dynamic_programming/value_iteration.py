@@ -8,7 +8,7 @@ from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.value_iteration import Given, Sought, Swept
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign, to_sympy
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, NotGiven, Value, exact, sign, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered
@@ -140,6 +140,18 @@ def paid_twice(given: Given, work: Work) -> None:
 
 
 @slip(
+    "one-sweep-short",
+    "These are the values after one sweep less than is asked for: every sweep looks one step further ahead.",
+    when=lambda given: isinstance(given, Swept),
+)
+def stopped_early(given: Swept, work: Work) -> None:
+    """The values before the last sweep, if they are not those of the start."""
+    if given.sweeps == 1:
+        raise NotGiven("there is no sweep before the first")
+    solve(given.model_copy(update={"sweeps": given.sweeps - 1}), work)
+
+
+@slip(
     "exceeds-the-maximum",
     "V₂ takes the greatest of the actions' values, so none may exceed it: the smallest value that reaches it is right.",
     when=lambda given: isinstance(given, Sought) and _ways(given) > 1,
@@ -161,7 +173,7 @@ def _ways(given: Sought) -> int:
 
 MISCONCEPTIONS = (
     *order_slips(solve, lambda given: _swept(given) and not given.in_place and not given.action_values),
-    paid_twice, MEAN_FOR_MAX, exceeds,
+    paid_twice, stopped_early, MEAN_FOR_MAX, exceeds,
     replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and (_swept(given) or isinstance(given, Sought))),
     OPTIMAL_Q_BY_REWARD,
 )  # fmt: skip
