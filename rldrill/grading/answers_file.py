@@ -143,12 +143,18 @@ _WHOSE = re.compile(r"""^[\s{]*["']?(?:student|number)["']?\s*[=:]\s*["']?([^"'\
 
 def whose_file(path: str | Path) -> str:
     """Who seems to have written a file that cannot be read as one of answers; empty where that is not known."""
+    if not Path(path).is_file():  # to open a pipe waits for whoever writes into it
+        return ""
     try:
         with Path(path).open("rb") as file:
             begun = file.read(_BEGINNING).decode("utf-8", "replace")
     except OSError:
         return ""
-    found = _WHOSE.search(begun)
+    return _who_says(begun)
+
+
+def _who_says(text: str) -> str:
+    found = _WHOSE.search(text)
     return _in_one_line(found[1].strip()) if found else ""
 
 
@@ -235,7 +241,7 @@ def _json_lines(text: str, path: Path) -> Iterator[Row]:
         try:
             data = _object(line, path, number)
         except FileError as error:
-            yield Refusal(shown(path), number, "", str(error))
+            yield Refusal(shown(path), number, _who_says(line), str(error))
         else:
             _, column = places(line, path).get(("answer",), (None, None))
             yield _row(data, number, column, path)

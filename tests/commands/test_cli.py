@@ -72,7 +72,7 @@ def test_help_and_list_import_nothing_heavy() -> None:
         (["show", "no-such/1/1"], 2, "no family"),
         (["show", "td-zero/1/1@9"], 2, "revision 9"),
         (["solve", "missing.toml"], 3, "missing.toml"),
-        (["list", "no-such-topic"], 2, "no family"),
+        (["list", "no-such-topic"], 2, "no topic or family"),
         (["generate", "td-zer"], 2, "did you mean 'td-zero'"),
         (["solve", "examples"], 2, "examples"),
     ],

@@ -55,7 +55,7 @@ def test_ctrl_d_sums_up(terminal: Terminal) -> None:
 
 @pytest.mark.parametrize("terminal", [120], indirect=True)
 def test_ctrl_c_sums_up(terminal: Terminal) -> None:
-    terminal.types("1, 2", "(a) > ")
+    terminal.types("1, 2", "Try again", "(a) > ")
     terminal.child.sendintr()
     terminal.sees("0 of 2 parts right")
     assert terminal.ends() == 130
@@ -90,6 +90,7 @@ def test_a_letter_that_begins_an_answer_is_no_key(tmp_path: Path) -> None:
 def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 60, RACING_CAR, then="echo It is stopped; fg; echo and ended")
     running.sees("(a) > ")
+    running.is_read()
     running.presses("cool: 7/2, ", "cool: 7/2, ")
     running.presses("\x1a", "It is stopped", "Value iteration starts", "(a) > cool: 7/2, ")
     running.types("warm: 5/2", "Right", "(b) > ")
@@ -101,6 +102,7 @@ def test_where_it_is_read_out_the_prompt_and_what_was_typed_are_there_again_afte
     running = Terminal(tmp_path, 80, "--plain", RACING_CAR, then="echo It is stopped; fg; echo and ended")
     running.child.setecho(True)  # readline echoes where the terminal does
     running.sees("(a) > ")
+    running.is_read()
     running.presses("cool: 7/2, ", "cool: 7/2, ")
     running.presses("\x1a", "It is stopped", "(a) > cool: 7/2, ")
     running.types("warm: 5/2", "Right", "(b) > ")

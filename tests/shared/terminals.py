@@ -5,6 +5,8 @@ import re
 import shlex
 import signal
 import sys
+import termios
+import time
 from pathlib import Path
 
 import pexpect
@@ -49,6 +51,13 @@ class Terminal:
         """Wait for one text after the other."""
         for text in texts:
             self.child.expect(re.escape(text).replace(r"\ ", rf"{_BLANK}+") + f"{_BLANK}*")
+
+    def is_read(self) -> None:
+        """Wait until every key is read as it comes: what was typed before would be lost with a signal."""
+        until = time.monotonic() + 10
+        while termios.tcgetattr(self.child.child_fd)[3] & termios.ICANON:
+            assert time.monotonic() < until
+            time.sleep(0.01)
 
     def ends(self) -> int:
         """Wait for the end; what is returned is the exit code."""
