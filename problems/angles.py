@@ -1,10 +1,10 @@
 """Angles as problem files have them, in radians: ``pi/6``, ``-2*pi/3``, or a plain number."""
 
 import re
-from dataclasses import dataclass
 from math import pi
 from typing import Annotated
 
+from msgspec import Struct
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
 from rldrill.problems.exact import read_fraction
@@ -13,8 +13,7 @@ from rldrill.problems.fractions import Fraction
 _PI = re.compile(r"([+-]?)\s*(\d{0,6})\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d{1,6}))?")
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Angle:
+class Angle(Struct, frozen=True, order=True):
     """A rational number of radians, or a rational multiple of π."""
 
     number: Fraction

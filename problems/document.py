@@ -4,8 +4,10 @@ Every text may hold mathematics between ``$`` signs (see ``rldrill.problems.math
 """
 
 import re
-from dataclasses import dataclass, field, replace
 from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import force_setattr, replace
 
 from rldrill.problems.mathematics import Math, mathematics
 from rldrill.problems.notations import PLAIN, Writing, all_in_notation, in_use, with_mark
@@ -17,30 +19,26 @@ class Block:
     __slots__ = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Paragraph(Block):
+class Paragraph(Block, Struct, frozen=True):
     """Running text."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Heading(Block):
+class Heading(Block, Struct, frozen=True):
     """A short line above what follows."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Table(Block):
+class Table(Block, Struct, frozen=True):
     """A table with a header line; cells are texts."""
 
     header: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Equation(Block):
+class Equation(Block, Struct, frozen=True, eq=False):
     """Mathematics on lines of its own: a left side, then right sides one under the other.
 
     ``signs`` holds the relation before each right side; an empty sign goes on with the side above.
@@ -52,16 +50,26 @@ class Equation(Block):
     rights: tuple[Math, ...]
     signs: tuple[str, ...]
     label: str = ""
-    notation: Writing = field(default=PLAIN, compare=False)
-    linear: bool = field(default=False, compare=False)
+    notation: Writing = PLAIN
+    linear: bool = False
 
     def __post_init__(self) -> None:
         if self.notation == in_use():
             return
         left, *rights = all_in_notation((self.left, *self.rights), linear=self.linear)
-        object.__setattr__(self, "left", left)
-        object.__setattr__(self, "rights", tuple(rights))
-        object.__setattr__(self, "notation", in_use())
+        force_setattr(self, "left", left)
+        force_setattr(self, "rights", tuple(rights))
+        force_setattr(self, "notation", in_use())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Equation) and self._compared == other._compared
+
+    def __hash__(self) -> int:
+        return hash(self._compared)
+
+    @property
+    def _compared(self) -> tuple[object, ...]:
+        return self.left, self.rights, self.signs, self.label
 
     @property
     def is_bare(self) -> bool:
@@ -73,8 +81,7 @@ class Equation(Block):
         return replace(self, rights=self.rights[:-1], signs=self.signs[:-1])
 
 
-@dataclass(frozen=True, slots=True)
-class Beside(Block):
+class Beside(Block, Struct, frozen=True):
     """Blocks side by side where the page is wide enough, else one under the other."""
 
     blocks: tuple[Block, ...]

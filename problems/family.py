@@ -4,11 +4,12 @@ import importlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from functools import cache, cached_property
 from types import ModuleType, NoneType
 from typing import Any, Self, get_args
 
+from msgspec import Struct
+from msgspec.structs import force_setattr
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import to_jsonable_python
@@ -132,19 +133,17 @@ def _may_be_open(kind: Any) -> bool:
     return any(map(_may_be_open, inside))
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
+class Question(Struct, frozen=True):
     """What is printed: the situation, then the parts, which get their letters here."""
 
     blocks: Document
     parts: tuple[Part, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "parts", lettered(self.parts))
+        force_setattr(self, "parts", lettered(self.parts))
 
 
-@dataclass(frozen=True)
-class Family:
+class Family(Struct, frozen=True, dict=True):
     """One family: the module ``problems/<topic>/<name>.py`` as an object.
 
     ``given`` is a model; or, where the family has several kinds of problems, ``Annotated`` with the ``Discriminator``
@@ -256,8 +255,7 @@ def _demanded(module: ModuleType, name: str) -> Any:
         raise BrokenFamily(f"{module.__file__}: a family must have {name}; add it.") from None
 
 
-@dataclass(frozen=True)
-class Problem:
+class Problem(Struct, frozen=True, dict=True):
     """One problem: its family and what is given; its identity unless somebody brought it from outside."""
 
     family: Family

@@ -2,8 +2,9 @@
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.draws import Draws
@@ -15,8 +16,7 @@ Schema = Mapping[str, Any]
 _DRAWN = 6
 
 
-@dataclass(frozen=True, slots=True)
-class FileField:
+class FileField(Struct, frozen=True):
     """A field of a problem file.
 
     Args:
@@ -55,8 +55,7 @@ def _drawn(family: Family) -> Iterator[Any]:
             yield given.model_dump(mode="json", exclude_defaults=True)
 
 
-@dataclass(frozen=True)
-class _Reader:
+class _Reader(Struct, frozen=True):
     """Reads a JSON Schema, whose named parts are these."""
 
     parts: Mapping[str, Schema]

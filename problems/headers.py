@@ -1,16 +1,16 @@
 """What a family's file says of it at its head, read without importing it: its models take longer than a list may."""
 
 import ast
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.identity import LEVELS
 
 
-@dataclass(frozen=True)
-class Header:
+class Header(Struct, frozen=True):
     """The name, the topic, and what the head of the file says."""
 
     name: str

@@ -1,8 +1,9 @@
 """Problem IDs: ``value-iteration/2/7@1`` is family, level, seed and the family's revision."""
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from rldrill.problems.errors import UsageError
 
@@ -11,8 +12,7 @@ MAX_SEED = 10**12
 _ID = re.compile(r"(?P<family>[a-z0-9-]+)/(?P<level>[1-3])/(?P<seed>\d{1,12})(?:@(?P<revision>\d{1,6}))?")
 
 
-@dataclass(frozen=True, slots=True)
-class Identity:
+class Identity(Struct, frozen=True):
     """The name of one problem: the same ID is the same problem, to the letter, everywhere."""
 
     family: str

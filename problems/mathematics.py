@@ -8,39 +8,36 @@ or in quotes is set upright,
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, TypeAlias
 from unicodedata import normalize
 
+from msgspec import Struct
+
 Style = Literal["variable", "word", "number", "operator", "relation", "punctuation"]
 
 
-@dataclass(frozen=True, slots=True)
-class Glyph:
+class Glyph(Struct, frozen=True):
     """One sign: a letter, a word, a number, an operator."""
 
     text: str
     style: Style
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """Things side by side."""
 
     items: tuple["Math", ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Fraction:
+class Fraction(Struct, frozen=True):
     """A quotient, one above the other where there is room."""
 
     numerator: "Math"
     denominator: "Math"
 
 
-@dataclass(frozen=True, slots=True)
-class Script:
+class Script(Struct, frozen=True):
     """Something with a subscript, a superscript or both."""
 
     body: "Math"
@@ -48,8 +45,7 @@ class Script:
     above: "Math | None" = None
 
 
-@dataclass(frozen=True, slots=True)
-class Fence:
+class Fence(Struct, frozen=True):
     """Something in brackets that grow with it."""
 
     body: "Math"
@@ -57,8 +53,7 @@ class Fence:
     right: str = ")"
 
 
-@dataclass(frozen=True, slots=True)
-class Big:
+class Big(Struct, frozen=True):
     """A large operator with limits: Σ, max, arg max, 𝔼."""
 
     sign: str
@@ -66,23 +61,20 @@ class Big:
     above: "Math | None" = None
 
 
-@dataclass(frozen=True, slots=True)
-class Root:
+class Root(Struct, frozen=True):
     """A square root."""
 
     body: "Math"
 
 
-@dataclass(frozen=True, slots=True)
-class Accent:
+class Accent(Struct, frozen=True):
     """A letter with a mark above it."""
 
     body: "Math"
     mark: Literal["hat", "bar", "tilde"]
 
 
-@dataclass(frozen=True, slots=True)
-class Tabular:
+class Tabular(Struct, frozen=True):
     """A matrix, or a column of cells, between brackets."""
 
     rows: tuple[tuple["Math", ...], ...]
@@ -90,8 +82,7 @@ class Tabular:
     right: str = "]"
 
 
-@dataclass(frozen=True, slots=True)
-class Marked:
+class Marked(Struct, frozen=True):
     """Something that is other than it should be."""
 
     body: "Math"

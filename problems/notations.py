@@ -5,11 +5,13 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache, lru_cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from msgspec import Struct
+from msgspec.structs import fields, replace
 
 from rldrill.problems.errors import UsageError
 from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Row, Script, mathematics, row
@@ -43,8 +45,7 @@ PLAIN = Writing()
 _in_use: ContextVar[Writing] = ContextVar("writing", default=PLAIN)
 
 
-@dataclass(frozen=True)
-class Notation:
+class Notation(Struct, frozen=True):
     """One notation.
 
     Args:
@@ -140,9 +141,9 @@ def _with_commas(math: Any) -> Any:
         inside = tuple(map(_with_commas, math))
         parted = any(isinstance(item, Glyph) and item.style == "number" and "," in item.text for item in inside)
         return tuple(_SEMICOLON if item == _COMMA else item for item in inside) if parted else inside
-    if not is_dataclass(math):
+    if not isinstance(math, Struct):
         return math
-    return replace(math, **{field.name: _with_commas(getattr(math, field.name)) for field in fields(math)})  # type: ignore[type-var]
+    return replace(math, **{field.name: _with_commas(getattr(math, field.name)) for field in fields(math)})
 
 
 @lru_cache(maxsize=4096)
@@ -179,7 +180,7 @@ def _within(value: Any) -> Iterator[Any]:
     if isinstance(value, tuple):
         for item in value:
             yield from _within(item)
-    elif is_dataclass(value):
+    elif isinstance(value, Struct):
         yield value
 
 
@@ -198,7 +199,7 @@ def _rewritten(notation: Notation, math: Any) -> Any:
 def _inside(notation: Notation, value: Any) -> Any:
     if isinstance(value, tuple):
         return tuple(_inside(notation, item) for item in value)
-    return _rewritten(notation, value) if is_dataclass(value) else value
+    return _rewritten(notation, value) if isinstance(value, Struct) else value
 
 
 def _relettered(notation: Notation, glyph: Glyph) -> Glyph:
@@ -220,7 +221,7 @@ def _fits(pattern: Any, math: Any, found: dict[str, Math]) -> bool:
             and len(pattern) == len(math)
             and all(_fits(one, other, found) for one, other in zip(pattern, math, strict=True))
         )
-    if not is_dataclass(pattern):
+    if not isinstance(pattern, Struct):
         return bool(pattern == math)
     return type(pattern) is type(math) and all(
         _fits(getattr(pattern, field.name), getattr(math, field.name), found) for field in fields(pattern)
@@ -246,6 +247,6 @@ def _filled(becomes: Any, found: Mapping[str, Math]) -> Any:
         return row(*(_filled(item, found) for item in becomes.items))
     if isinstance(becomes, tuple):
         return tuple(_filled(item, found) for item in becomes)
-    if not is_dataclass(becomes):
+    if not isinstance(becomes, Struct):
         return becomes
-    return replace(becomes, **{f.name: _filled(getattr(becomes, f.name), found) for f in fields(becomes)})  # type: ignore[type-var]
+    return replace(becomes, **{f.name: _filled(getattr(becomes, f.name), found) for f in fields(becomes)})

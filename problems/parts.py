@@ -1,32 +1,30 @@
 """The parts (a), (b), … of a problem, and the kinds of answer that they ask for."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from string import ascii_lowercase
 from typing import ClassVar, TypeAlias
+
+from msgspec import Struct
 
 Key: TypeAlias = str | tuple[str, str]
 #: A problem has no more parts than there are letters for them.
 LETTERS = len(ascii_lowercase)
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(Struct, frozen=True):
     """One number, or an expression in the parameters left open."""
 
     name: ClassVar[str] = "number"
 
 
-@dataclass(frozen=True, slots=True)
-class Numbers:
+class Numbers(Struct, frozen=True):
     """Numbers in a stated order; ``entries`` says in mathematics what each is (``R_0``)."""
 
     entries: tuple[str, ...]
     name: ClassVar[str] = "vector"
 
 
-@dataclass(frozen=True, slots=True)
-class Matrix:
+class Matrix(Struct, frozen=True):
     """A matrix of a known shape."""
 
     rows: int
@@ -34,8 +32,7 @@ class Matrix:
     name: ClassVar[str] = "matrix"
 
 
-@dataclass(frozen=True, slots=True)
-class Values:
+class Values(Struct, frozen=True):
     """A number for every state, or for every pair of state and action.
 
     ``of`` is the function asked for, ``V``; a dot in it says where the key stands, ``p(D|·)``.
@@ -46,8 +43,7 @@ class Values:
     name: ClassVar[str] = "table"
 
 
-@dataclass(frozen=True, slots=True)
-class Policy:
+class Policy(Struct, frozen=True):
     """An action for every state; ``actions`` holds the states, and what is possible in each, ``of`` its letter.
 
     A single choice that no state is named for has no letter, and is told by itself.
@@ -58,16 +54,14 @@ class Policy:
     name: ClassVar[str] = "policy"
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(Struct, frozen=True):
     """One of several options, each a letter and its text."""
 
     options: Mapping[str, str]
     name: ClassVar[str] = "choice"
 
 
-@dataclass(frozen=True, slots=True)
-class YesNo:
+class YesNo(Struct, frozen=True):
     """Yes or no."""
 
     name: ClassVar[str] = "yes/no"
@@ -76,8 +70,7 @@ class YesNo:
 Kind: TypeAlias = Number | Numbers | Matrix | Values | Policy | Choice | YesNo
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """One thing asked.
 
     Args:

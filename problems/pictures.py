@@ -3,8 +3,9 @@
 Labels are texts, with mathematics between ``$`` signs.
 """
 
-from dataclasses import dataclass
 from typing import Literal
+
+from msgspec import Struct
 
 from rldrill.problems.document import Block
 
@@ -15,8 +16,7 @@ class Picture(Block):
     __slots__ = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Arrow:
+class Arrow(Struct, frozen=True):
     """One transition of a state diagram: from a state by an action to a state."""
 
     state: str
@@ -26,8 +26,7 @@ class Arrow:
     reward: str
 
 
-@dataclass(frozen=True, slots=True)
-class StateDiagram(Picture):
+class StateDiagram(Picture, Struct, frozen=True):
     """States as circles, actions as dots, probabilities and rewards on the arrows.
 
     ``states`` holds the terminal ones too, in the order in which they are drawn.
@@ -38,8 +37,7 @@ class StateDiagram(Picture):
     arrows: tuple[Arrow, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Timeline(Picture):
+class Timeline(Picture, Struct, frozen=True):
     """A run over time: states, and between them actions (if any) and rewards, all as they are labelled.
 
     There may be an action in the last state, too; ``ended`` says that the last state is terminal.
@@ -53,23 +51,20 @@ class Timeline(Picture):
     ended: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class GridPicture(Picture):
+class GridPicture(Picture, Struct, frozen=True):
     """A grid world: the label of every cell, row by row; ``#`` is a wall."""
 
     rows: tuple[tuple[str, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Branch:
+class Branch(Struct, frozen=True):
     """A line of a backup diagram downwards, with what stands beside it."""
 
     node: "Node"
     label: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Node:
+class Node(Struct, frozen=True):
     """A node of a backup diagram: an open circle for a state, a filled dot for an action, a square for the end.
 
     ``maximum`` draws the arc across the branches; ``dots`` says that the diagram goes on between this node
@@ -83,16 +78,14 @@ class Node:
     dots: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class BackupDiagram(Picture):
+class BackupDiagram(Picture, Struct, frozen=True):
     """A backup diagram as Sutton & Barto draw it, root above, and over it a title if there is one."""
 
     root: Node
     title: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Bars(Picture):
+class Bars(Picture, Struct, frozen=True):
     """Shares side by side, such as a belief before and after: for every name one bar in each series.
 
     ``shares`` and ``labels`` have a row for each series; shares are between 0 and 1, labels are what
@@ -105,8 +98,7 @@ class Bars(Picture):
     labels: tuple[tuple[str, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Bumps(Picture):
+class Bumps(Picture, Struct, frozen=True):
     """Radial basis functions over a state axis, and the state that is asked about."""
 
     centres: tuple[float, ...]
@@ -115,8 +107,7 @@ class Bumps(Picture):
     state: float
 
 
-@dataclass(frozen=True, slots=True)
-class Arm(Picture):
+class Arm(Picture, Struct, frozen=True):
     """A planar arm: its links, and the joints' angles in degrees, each relative to the link before.
 
     The first is relative to the base's own axis, which may be ``turned`` by an angle, in degrees.
@@ -127,8 +118,7 @@ class Arm(Picture):
     turned: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Pendulum(Picture):
+class Pendulum(Picture, Struct, frozen=True):
     """A pendulum at an angle in degrees from hanging down; ``cart`` puts it on a cart, standing up at 180."""
 
     angle: float

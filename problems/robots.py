@@ -3,12 +3,12 @@
 import cmath
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cache
 from itertools import zip_longest
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
+from msgspec import Struct, field
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
 from rldrill.problems import mathematics as maths
@@ -118,8 +118,7 @@ class System(Givens):
         return tuple(self.dynamics)
 
 
-@dataclass(frozen=True, slots=True)
-class Robot:
+class Robot(Struct, frozen=True):
     """A robot of ``robots.toml``: its dynamics, the values that are drawn, and where it comes from."""
 
     name: str

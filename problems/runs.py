@@ -2,11 +2,11 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, NamedTuple, Self
 
+from msgspec.structs import replace
 from pydantic import AfterValidator, Discriminator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table

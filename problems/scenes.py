@@ -1,14 +1,13 @@
 """Where robots believe, move and sense: states in a line, two actions along it, and two readings."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar
 from rldrill.problems.fractions import Fraction
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Struct, frozen=True):
     """A place: its states in their order, the action that goes up this order and the one that goes down.
 
     The first of the readings becomes more probable up this order, less probable, or as it comes: ``trend`` is 1, −1, 0.

@@ -2,19 +2,19 @@
 
 import tomllib
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise, permutations
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Transition
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
+class Setting(Struct, frozen=True):
     """A world: what it is about, its states, the one in which it ends, and the actions; what to add where it ends.
 
     ``moves`` holds for each action how many states further it leads, below 0 how many back, the most usual first;
@@ -92,8 +92,7 @@ def settings() -> tuple[Setting, ...]:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Map:
+class Map(Struct, frozen=True):
     """Places without an order, the one in which it ends, and actions that may lead to any place still to come."""
 
     story: str
@@ -224,8 +223,7 @@ def draw_roaming(rng: Draws) -> Setting:
     return rng.choice([setting for setting in settings() if setting.returns])
 
 
-@dataclass(frozen=True, slots=True)
-class Shape:
+class Shape(Struct, frozen=True):
     """How large a random model is.
 
     Args:

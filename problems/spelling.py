@@ -3,8 +3,10 @@
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from functools import lru_cache
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 _QUOTED = 40
 #: One sign for a quotient of two numbers: ½ is a number of its own, and ½γ half of γ.
@@ -48,8 +50,7 @@ class Unreadable(ValueError):
         return Unreadable(f"{place}: {self.message}", self.position)
 
 
-@dataclass(frozen=True, slots=True)
-class Source:
+class Source(Struct, frozen=True):
     """A stretch of typed text in its one spelling, and where it was typed.
 
     Attributes:

@@ -1,10 +1,11 @@
 """Models with values that fit them: drawn from whole values, and checked where somebody brings both."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from itertools import chain
 from operator import add, mul
 from typing import Literal, NamedTuple
+
+from msgspec.structs import replace
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws

@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from threading import Event, Thread
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.background import in_background
 from rldrill.misreading import misread_lines
@@ -41,8 +43,7 @@ _NOT_WRITTEN = ("kept", "repeated", "min-for-max", "smallest", "another-quantity
 _PLACES = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(Struct, frozen=True):
     """Where in the working it went wrong.
 
     Args:
@@ -54,8 +55,7 @@ class Place:
     step: int | None
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Diagnosis:
+class Diagnosis(Struct, frozen=True):
     """What an answer comes from.
 
     Args:
@@ -123,8 +123,7 @@ class Diagnosis:
         return {"yours": yours, "right": right}
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class WrongAnswer:
+class WrongAnswer(Struct, frozen=True):
     """A wrong answer to a part, as it is typed, and what it comes from.
 
     ``lines`` is the step or formula as it was taken, and as it should be, where there is one.
@@ -366,8 +365,7 @@ def _sentence(words: Words) -> str:
     return "".join(word if isinstance(word, str) else unicode(in_notation(word)) for word in words)
 
 
-@dataclass(frozen=True, slots=True)
-class FollowedLine:
+class FollowedLine(Struct, frozen=True):
     """One line of somebody's own working.
 
     Args:
@@ -386,8 +384,7 @@ class FollowedLine:
     kind: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Followed:
+class Followed(Struct, frozen=True):
     """Somebody's own working, held against the right one; ``first`` is the number of the first line that departs."""
 
     lines: tuple[FollowedLine, ...]

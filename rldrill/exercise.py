@@ -2,12 +2,14 @@
 
 import reprlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.files import DATA_SUFFIXES, MODEL_SUFFIXES
 from rldrill.graded import Graded, grade
@@ -41,8 +43,7 @@ if TYPE_CHECKING:
     from rldrill.diagnosis import Diagnosing, Diagnosis, Followed
 
 
-@dataclass(frozen=True, repr=False)
-class Exercise:
+class Exercise(Struct, frozen=True, dict=True):
     """A problem together with its solution.
 
     What is a page (``question``, ``hint``, ``working``) is readable text as ``str``, and Markdown in a notebook.

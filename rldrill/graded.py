@@ -1,17 +1,17 @@
 """Grading: every part of a problem is judged, later ones also with the person's own answers to earlier ones."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.effort import points
 from rldrill.solutions.solution import Solution
 
 
-@dataclass(frozen=True, slots=True)
-class GradedPart:
+class GradedPart(Struct, frozen=True):
     """One part of a submission.
 
     Args:
@@ -42,8 +42,7 @@ class GradedPart:
         return self.verdict is not None and self.verdict.accepted
 
 
-@dataclass(frozen=True, slots=True)
-class Graded:
+class Graded(Struct, frozen=True):
     """A submission to one problem, all parts in their order; ``graded["b"]`` is one of them."""
 
     parts: tuple[GradedPart, ...]

@@ -1,7 +1,8 @@
 """What it means that an undiscounted process goes round for ever: what the loop pays, and what is said of it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from rldrill.problems.document import joined
 from rldrill.solutions.exact import ONE, NotReal, Value, decimal, digits, is_zero, parameters, sign, to_sympy
@@ -12,8 +13,7 @@ _NAMED = 4
 _DIGITS = 8
 
 
-@dataclass(frozen=True)
-class Loop:
+class Loop(Struct, frozen=True):
     """A recurrent class: states that are visited again and again and never left.
 
     Attributes:

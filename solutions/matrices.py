@@ -2,11 +2,11 @@
 
 import operator
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache, reduce
 from typing import Any, Protocol, TypeGuard
 
 from flint import fmpq, fmpq_mat
+from msgspec import Struct
 
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import surds
@@ -29,8 +29,7 @@ class AnyMatrix(Protocol):
     def __mul__(self, other: "AnyMatrix | Value | int", /) -> "AnyMatrix": ...
 
 
-@dataclass(frozen=True, slots=True)
-class ExactMatrix:
+class ExactMatrix(Struct, frozen=True):
     """A matrix of any exact values, with the operations of ``fmpq_mat``; made by ``matrix``."""
 
     _rows: tuple[tuple[Value, ...], ...]

@@ -1,12 +1,12 @@
 """Optimal values of a model, exactly: Howard's policy iteration over the rationals."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
 from typing import NoReturn
 
 from flint import fmpq, fmpq_mat
+from msgspec import Struct, field
 
 from rldrill.problems.document import joined
 from rldrill.problems.fractions import Fraction
@@ -33,8 +33,7 @@ ONLY_GREEDY = (
 )
 
 
-@dataclass(frozen=True)
-class Optimum:
+class Optimum(Struct, frozen=True):
     """Optimal values, and in every state all actions that are best; where several are, they are tied exactly.
 
     Attributes:
@@ -72,8 +71,7 @@ class Optimum:
             )
 
 
-@dataclass(frozen=True)
-class _Choice:
+class _Choice(Struct, frozen=True):
     """One action of a state: the reward to be expected, and where it leads, terminal states left out."""
 
     action: str

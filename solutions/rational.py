@@ -2,13 +2,13 @@
 
 import operator
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache
 from math import gcd, lcm
 from typing import Any, TypeAlias
 
 import sympy
 from flint import fmpq, fmpq_poly
+from msgspec import Struct
 
 from rldrill.solutions.closed_forms import rational
 from rldrill.solutions.value import NoSolution, NotReal, Value
@@ -17,8 +17,7 @@ _ONE = fmpq_poly([1])
 _Operation: TypeAlias = Callable[["RationalFunction", "RationalFunction"], Value]
 
 
-@dataclass(frozen=True, slots=True)
-class RationalFunction:
+class RationalFunction(Struct, frozen=True):
     """A quotient of polynomials in one parameter, in lowest terms, the lower one monic.
 
     Made by ``quotient``, so that what does not depend on the parameter is a plain ``fmpq``. It costs a

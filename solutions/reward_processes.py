@@ -1,9 +1,9 @@
 """Formulas as they are for a Markov reward process: without actions, and without a policy to choose them."""
 
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from msgspec.structs import replace
 from sympy import Expr, Mul, evaluate
 
 from rldrill.problems.mathematics import Math, Script, mathematics, row, variable

@@ -2,10 +2,11 @@
 
 import importlib.util
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from types import ModuleType
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
@@ -16,8 +17,7 @@ from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
 
 
-@dataclass(frozen=True)
-class Solver:
+class Solver(Struct, frozen=True):
     """The twin of a family: the module ``solutions/<topic>/<name>.py`` as an object.
 
     ``oracle`` gives the same answers by other means (numpy, simulation, brute force), in floating point,
@@ -83,8 +83,7 @@ def _made(family: Family, read: tuple[Formula, ...]) -> tuple[Misconception, ...
 _MOST_LINES = 2000
 
 
-@dataclass(frozen=True)
-class Solution:
+class Solution(Struct, frozen=True, dict=True):
     """The solution of one problem; ``attempts`` says how many draws it took to find a good one."""
 
     problem: Problem

@@ -1,11 +1,13 @@
 """The working of a problem: the solver's notebook, in which every step is data."""
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from flint import fmpq
+from msgspec import Struct
+from msgspec.structs import replace
 from sympy import Expr
 
 from rldrill.problems.document import Equation
@@ -125,8 +127,7 @@ def _without_detours(rights: Iterable[Math]) -> tuple[Math, ...]:
     return tuple(kept.values())
 
 
-@dataclass(frozen=True)
-class Note:
+class Note(Struct, frozen=True, dict=True):
     """A sentence between the steps; one that takes long to make is made when somebody looks."""
 
     said: str | Callable[[], str]
@@ -137,8 +138,7 @@ class Note:
         return self.said if isinstance(self.said, str) else self.said()
 
 
-@dataclass(frozen=True)
-class Recalled:
+class Recalled(Struct, frozen=True):
     """A formula as it stands: what the steps that follow are there for."""
 
     formula: Formula
@@ -148,15 +148,13 @@ class Recalled:
         return self.formula.equation()
 
 
-@dataclass(frozen=True)
-class Drawn:
+class Drawn(Struct, frozen=True):
     """Pictures between the steps, which are made when somebody looks."""
 
     pictures: Callable[[], Iterable[Picture]]
 
 
-@dataclass(frozen=True)
-class Result:
+class Result(Struct, frozen=True):
     """Values that a procedure gives together: the solution of a system, a table at its end."""
 
     lefts: tuple[Expr, ...]
@@ -183,8 +181,7 @@ class Equality:
         return Equation(left, tuple(rights), ("=",) * len(rights))
 
 
-@dataclass(frozen=True)
-class Elimination:
+class Elimination(Struct, frozen=True):
     """How a system of equations is solved by hand."""
 
     names: Mapping[Hashable, Expr]

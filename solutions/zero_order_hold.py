@@ -1,10 +1,10 @@
 """A linear system while the action is held: exactly where the exponential ends or is a number's, else in decimals."""
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq
+from msgspec import Struct
 
 from rldrill.solutions import matrices
 from rldrill.solutions.exact import Value, enclosure
@@ -16,8 +16,7 @@ _BITS = 200
 _DECIMALS = 10**12
 
 
-@dataclass(frozen=True)
-class ZeroOrderHold:
+class ZeroOrderHold(Struct, frozen=True, dict=True):
     """The matrix of the rates A s, and the time Δt for which the action is held."""
 
     A: AnyMatrix

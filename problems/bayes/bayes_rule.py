@@ -1,10 +1,10 @@
 """The belief over some hypotheses after one or several measurements."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Self
 
+from msgspec import Struct
 from pydantic import Field, model_validator
 
 from rldrill.problems.beliefs import (
@@ -88,8 +88,7 @@ def left_open(chances: Mapping[str, Scalar]) -> bool:
     return any(isinstance(chance, Parameter) for chance in chances.values())
 
 
-@dataclass(frozen=True, slots=True)
-class _Story:
+class _Story(Struct, frozen=True):
     """What is told; the first reading is the more probable, the earlier the hypothesis stands."""
 
     told: str

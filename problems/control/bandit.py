@@ -1,9 +1,9 @@
 """A bandit: sample averages and the greedy arm, upper confidence bounds and their weight, or a gradient step."""
 
-from dataclasses import dataclass
 from math import log, sqrt
 from typing import Annotated, NamedTuple, Self
 
+from msgspec import Struct
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from rldrill.problems.document import Block, Paragraph, joined
@@ -172,8 +172,7 @@ Given = Annotated[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class _Story:
+class _Story(Struct, frozen=True):
     told: str
     arms: tuple[str, ...]
 

@@ -1,9 +1,9 @@
 """The targets of Sarsa and of Q-learning on the same run, or the step size from one; which of the two is on-policy."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any, Literal, NamedTuple, Self
 
+from msgspec.structs import replace
 from pydantic import Field, model_validator
 
 from rldrill.problems.asking_back import Rates, Rows, Worth, draw_forward, draw_rates, updates_of

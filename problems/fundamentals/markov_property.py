@@ -1,10 +1,10 @@
 """A table of what followed short histories: the probabilities given the history, and whether the process is Markov."""
 
 from collections import Counter
-from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple, Self
 
+from msgspec import Struct
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from rldrill.problems.document import Paragraph, Table
@@ -126,8 +126,7 @@ def _other_history(given: Given, hidden: Seen) -> bool:
     return any(now == hidden.now and before != hidden.before for before, now in given.histories)
 
 
-@dataclass(frozen=True, slots=True)
-class _Story:
+class _Story(Struct, frozen=True):
     told: str
     states: tuple[str, ...]
 

@@ -1,8 +1,8 @@
 """The eligibility traces of all states along a run, accumulating or replacing."""
 
-from dataclasses import replace
 from typing import Self
 
+from msgspec.structs import replace
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table

@@ -1,11 +1,11 @@
 """Holding every exact answer against an independent solver, and every draw against what it promises."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from msgspec import Struct, field
 
 from rldrill.audit.figures import Figures
 from rldrill.exam.manifest import read_exam
@@ -25,8 +25,7 @@ from rldrill.solutions.solution import Solution, solver
 TOLERANCE = 1e-8
 
 
-@dataclass
-class Finding:
+class Finding(Struct):
     """What the audit found in one family at one level.
 
     Args:

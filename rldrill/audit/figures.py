@@ -4,9 +4,10 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from statistics import median
 from typing import Any
+
+from msgspec import Struct, field
 
 from rldrill.audit.givens import idle
 from rldrill.audit.guessing import Guesses
@@ -33,8 +34,7 @@ _JUDGED = 200
 _WHOLE = re.compile(r"\d+")
 
 
-@dataclass
-class Figures:
+class Figures(Struct):
     """What many problems of one family and level are like together.
 
     Args:

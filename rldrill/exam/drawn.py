@@ -1,8 +1,9 @@
 """An exam as it is printed from: its manifest and the figures of its versions, and no problem kept."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
+
+from msgspec import Struct
 
 from rldrill.background import apart
 from rldrill.exam.blueprint import Blueprint
@@ -16,8 +17,7 @@ from rldrill.exam.sealing import Secret
 _MANY = 50
 
 
-@dataclass(frozen=True)
-class Drawn:
+class Drawn(Struct, frozen=True):
     """An exam that is planned.
 
     Args:

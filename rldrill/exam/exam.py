@@ -1,8 +1,9 @@
 """An exam as a thing: versions of one length and difficulty that share no problem."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from rldrill.exam.choices import DecimalMark, Language, Paper, Partial, Solutions, Space
 from rldrill.exercise import Exercise
@@ -12,16 +13,14 @@ from rldrill.solutions.effort import minutes, whole
 DEFAULT_TITLE = "Reinforcement Learning: worksheet"
 
 
-@dataclass(frozen=True, slots=True)
-class Person:
+class Person(Struct, frozen=True):
     """Somebody on the roster."""
 
     name: str
     number: str
 
 
-@dataclass(frozen=True, slots=True)
-class Head:
+class Head(Struct, frozen=True):
     """What is said of the exam as a whole, all of it plain text.
 
     Args:
@@ -43,8 +42,7 @@ class Head:
     decimal_mark: DecimalMark = "."
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(Struct, frozen=True):
     """How an exam is printed.
 
     Args:
@@ -64,8 +62,7 @@ class Layout:
     notation: str = LECTURE
 
 
-@dataclass(frozen=True)
-class Version:
+class Version(Struct, frozen=True):
     """One version of an exam: what one person gets.
 
     Every exercise carries the points that its parts earn here (``exercise.parts[0].points``).
@@ -100,8 +97,7 @@ class Version:
         return sum((minutes(exercise.solution) for exercise in self.exercises), Fraction(0))
 
 
-@dataclass(frozen=True)
-class Exam:
+class Exam(Struct, frozen=True):
     """An exam in all its versions.
 
     Args:

@@ -3,7 +3,8 @@
 import json
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
@@ -11,8 +12,7 @@ from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import answer_kind
 
 
-@dataclass(frozen=True)
-class Fairness:
+class Fairness(Struct, frozen=True):
     """The figures of an exam's versions.
 
     Args:

@@ -2,11 +2,12 @@
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, TypeGuard
 
+from msgspec import Struct
+from msgspec.structs import asdict, replace
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill import __version__
@@ -204,8 +205,7 @@ def codes(path: str | Path) -> tuple[str, ...]:
     return tuple(version.code for version in _checked(path).versions)
 
 
-@dataclass(frozen=True, slots=True)
-class Printed:
+class Printed(Struct, frozen=True):
     """What a manifest says of a version without solving it: whose it is, and its problems in their order.
 
     ``ids`` holds None for a problem of somebody's own; ``slots`` are the places in the blueprint, from 0; ``worth`` has

@@ -1,8 +1,9 @@
 """Planning an exam: a problem for every place of every version, none twice, and no answer twice in the same place."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from fractions import Fraction
+
+from msgspec.structs import replace
 
 from rldrill.exam.blueprint import Blueprint
 from rldrill.exam.exam import Exam, Person, Version

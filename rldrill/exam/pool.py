@@ -2,10 +2,12 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
 from itertools import islice
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.exam.fairness import chosen, content, told
 from rldrill.exam.selection import MAX_DRAWN
@@ -25,8 +27,7 @@ _CLOSE = Fraction(5, 4)
 _BALANCED = 6
 
 
-@dataclass(frozen=True, eq=False)
-class Candidate:
+class Candidate(Struct, frozen=True, eq=False):
     """A problem that could stand in a place, with what fairness asks of it.
 
     Thousands wait for a place of a large exam, and with its solution each would take many times the memory: those that
@@ -71,8 +72,7 @@ def candidate(made: Callable[[], Exercise]) -> Candidate:
 _remembered = lru_cache(maxsize=256)(draw)
 
 
-@dataclass(frozen=True)
-class Place:
+class Place(Struct, frozen=True):
     """What is wanted in a place.
 
     Args:

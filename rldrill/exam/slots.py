@@ -2,8 +2,10 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
 from itertools import chain, islice, zip_longest
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.exam.blueprint import MOST_PROBLEMS, MOST_VERSIONS, Blueprint, Entry
 from rldrill.exam.expected import COUNTED, variety
@@ -22,8 +24,7 @@ _TRIALS = 200
 _SHARE = 3
 
 
-@dataclass(frozen=True)
-class Slot:
+class Slot(Struct, frozen=True):
     """A place of an exam.
 
     Args:

@@ -1,10 +1,11 @@
 """What is asked and what is right, cell by cell: what formats that judge by themselves are made from."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.exam.choices import Language
 from rldrill.exercise import Exercise
@@ -27,8 +28,7 @@ _TOLD = 6
 _DIGITS = 12
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(Struct, frozen=True):
     """A cell that holds one of several words; more than one of them may be right."""
 
     name: str
@@ -37,8 +37,7 @@ class Word:
     right: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(Struct, frozen=True):
     """A cell that holds a number: the exact one as it is typed, and if it has one its decimal and tolerance."""
 
     name: str
@@ -51,8 +50,7 @@ class Quantity:
 Cell = Word | Quantity
 
 
-@dataclass(frozen=True, slots=True)
-class Wrong:
+class Wrong(Struct, frozen=True):
     """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it."""
 
     cells: tuple[str, ...]

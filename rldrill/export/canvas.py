@@ -6,12 +6,14 @@ shows what is given. What its importer demands is tested in ``tests/export/test_
 
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from html import escape
 from typing import Literal
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.exam.exam import Exam, Head, Version
 from rldrill.exercise import Exercise
@@ -141,8 +143,7 @@ def _quiz(writer: _Writer, name: str, exam: Exam, version: Version, *, practice:
     return root
 
 
-@dataclass(frozen=True, slots=True)
-class _Option:
+class _Option(Struct, frozen=True):
     """One of several things to choose: its text as HTML, whether it is right, and what is said of it."""
 
     text: str
@@ -150,8 +151,7 @@ class _Option:
     says: str
 
 
-@dataclass(frozen=True, slots=True)
-class _Question:
+class _Question(Struct, frozen=True):
     """A question of a quiz.
 
     Args:

@@ -2,9 +2,10 @@
 
 import errno
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+
+from msgspec import Struct
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.problems.errors import UsageError
@@ -12,8 +13,7 @@ from rldrill.problems.notations import used
 from rldrill.writing import write_bytes_atomically
 
 
-@dataclass(frozen=True, slots=True)
-class Format:
+class Format(Struct, frozen=True):
     """A format of files.
 
     Args:

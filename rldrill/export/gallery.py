@@ -1,11 +1,12 @@
 """The catalogue as a site: a page for every family, and a front page that searches them without a server."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from html import escape
 from itertools import groupby
 from pathlib import Path
 from unicodedata import name, normalize
+
+from msgspec import Struct
 
 from rldrill.exercise import Exercise, draw
 from rldrill.export.html import HTML, part_form, scripts, task
@@ -62,8 +63,7 @@ def gallery(folder: Path, headers: tuple[Header, ...], advance: Callable[[], Non
     yield folder / "index.html"
 
 
-@dataclass(frozen=True, slots=True)
-class _Card:
+class _Card(Struct, frozen=True):
     """A family on the front page: its formulas, and the words that it is found by."""
 
     header: Header

@@ -1,15 +1,15 @@
 """The fixed words of pages and of other programs, in each language; problems themselves are in English."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal
+
+from msgspec import Struct
 
 from rldrill.exam.choices import Language
 from rldrill.exam.exam import Head
 
 
-@dataclass(frozen=True, slots=True)
-class PageWords:
+class PageWords(Struct, frozen=True):
     """What stands there beside what print says; ``{}`` stands for what is put in.
 
     ``note`` stands above boxes that are judged elsewhere, and ``by_hand`` above what nobody but a person can judge.

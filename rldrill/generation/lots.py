@@ -1,8 +1,9 @@
 """Which problems a run draws: lots of a family and a level, cut so that any process can draw any of them alone."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 from rldrill.problems.catalogue import headers
 from rldrill.problems.draws import Draws
@@ -26,8 +27,7 @@ class Split(Enum):
         return range(_BELOW, _MIDDLE) if self is Split.TRAIN else range(_MIDDLE, MAX_SEED)
 
 
-@dataclass(frozen=True, slots=True)
-class Lot:
+class Lot(Struct, frozen=True):
     """So many different problems of a family and level, with the seeds from ``first`` on."""
 
     family: str

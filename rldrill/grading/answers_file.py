@@ -5,9 +5,11 @@ What is wrong with one answer is refused with its line, and costs only that answ
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.files import DATA_SUFFIXES, parse, parse_line, read_text, shown
 from rldrill.grading.places import places
@@ -32,8 +34,7 @@ PLACE = re.compile(r"[1-9][0-9]{0,2}")
 _BARE_ID = re.compile(r"^[ \t]*+\[?[ \t]*+(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """One answer, as it was typed.
 
     Args:
@@ -76,8 +77,7 @@ def placed(path: str, line: int | None, column: int | None) -> str:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
+class Refusal(Struct, frozen=True):
     """What could not be graded: a file, a row, or all that a student answered to a problem.
 
     Args:
@@ -97,13 +97,12 @@ class Refusal:
     problem: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class HandedIn:
+class HandedIn(Struct, frozen=True):
     """What a file of answers holds: the answers, and what of it could not be read."""
 
     path: Path
     entries: tuple[Entry, ...]
-    refused: tuple[Refusal, ...] = field(default=())
+    refused: tuple[Refusal, ...] = ()
 
 
 #: An answer, or what is wrong with its line.

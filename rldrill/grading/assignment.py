@@ -1,9 +1,10 @@
 """An assignment: which problems a student was given, and which answers are to none of them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from rldrill.files import read_text, shown
 from rldrill.grading.answers_file import PLACE, Entry
@@ -15,8 +16,7 @@ if TYPE_CHECKING:
     from rldrill.exam.manifest import Printed
 
 
-@dataclass(frozen=True, slots=True)
-class Sitting:
+class Sitting(Struct, frozen=True):
     """A student's exam: the name and number that reports use, and the version; None where the student has none.
 
     ``why`` says then what is missing.

@@ -2,12 +2,14 @@
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
 from time import process_time
 from typing import TYPE_CHECKING, Any, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.diagnosis import Diagnosis
 from rldrill.exercise import Exercise, draw, load
@@ -44,8 +46,7 @@ _DATE = re.compile(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Rules:
+class Rules(Struct, frozen=True):
     """How answers are marked.
 
     Args:
@@ -63,8 +64,7 @@ class Rules:
     commas: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
+class Task(Struct, frozen=True):
     """What one student answered to one problem.
 
     Args:
@@ -78,8 +78,7 @@ class Task:
     entries: tuple[Entry, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Marked:
+class Marked(Struct, frozen=True):
     """The marks for a task: for every part its label, which entry answers it, and the judgement."""
 
     parts: tuple[tuple[str, Entry | None, Judged], ...]
@@ -171,8 +170,7 @@ def refusal(entry: Entry, says: str, problem: str) -> Refusal:
     return Refusal(shown(entry.path), entry.line, entry.student, f"{entry.where}: {says}", problem=problem)
 
 
-@dataclass(slots=True)
-class _Time:
+class _Time(Struct):
     """Seconds that are left."""
 
     left: float

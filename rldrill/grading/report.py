@@ -1,10 +1,11 @@
 """What comes out of grading: points and verdicts for every student, and what could not be graded."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
+
+from msgspec import Struct, field
 
 from rldrill.diagnosis import Diagnosis
 from rldrill.grading.answers_file import Refusal, placed
@@ -25,8 +26,7 @@ _FLOAT = 16
 FEEDBACK = ("none", "verdict", "reason", "key")
 
 
-@dataclass(frozen=True, slots=True)
-class Score:
+class Score(Struct, frozen=True):
     """Points earned, of how many."""
 
     points: Fraction
@@ -58,8 +58,7 @@ class Score:
         return Score(self.share * of, of)
 
 
-@dataclass(frozen=True, slots=True)
-class Judged:
+class Judged(Struct, frozen=True):
     """What is found out about one answer; the same answer to the same part is judged once.
 
     Args:
@@ -89,8 +88,7 @@ def missing(of: int, key: str = "") -> Judged:
     return Judged("", MISSING, False, "Not answered.", Score(Fraction(0), of), key)
 
 
-@dataclass(frozen=True, slots=True)
-class MarkedPart:
+class MarkedPart(Struct, frozen=True):
     """The judgement of one part of one problem.
 
     Args:
@@ -142,8 +140,7 @@ class MarkedPart:
         return data | ({"key": judged.key} if feedback == FEEDBACK[3] else {})
 
 
-@dataclass(frozen=True, slots=True)
-class StudentReport:
+class StudentReport(Struct, frozen=True):
     """The answers of one student; the name is empty where the files give none.
 
     Args:
@@ -194,8 +191,7 @@ class StudentReport:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class Report:
+class Report(Struct, frozen=True):
     """The judgement of some files.
 
     Args:

@@ -2,11 +2,13 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from rldrill.files import shown
 from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers, whose_file
@@ -40,8 +42,7 @@ SHOWN = 1000
 HAND_INS = ("last", "first", "best")
 
 
-@dataclass(frozen=True, slots=True)
-class Settings:
+class Settings(Struct, frozen=True):
     """What is graded, and how.
 
     Args:
@@ -105,8 +106,7 @@ def verify(
     return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed, scale)
 
 
-@dataclass(slots=True)
-class _Student:
+class _Student(Struct):
     """One student's answers, one list for every file."""
 
     sitting: Sitting

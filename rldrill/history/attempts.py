@@ -3,9 +3,11 @@
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, fields, replace
 from datetime import UTC, datetime
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import asdict, fields, replace
 
 from rldrill.problems.errors import FileError
 
@@ -15,8 +17,7 @@ SKIPPED, SHOWN = "skipped", "working shown"
 OUTCOMES = ("right", "follow-through", "close", "misconception", "wrong", SKIPPED, SHOWN)
 
 
-@dataclass(frozen=True, slots=True)
-class Attempt:
+class Attempt(Struct, frozen=True):
     """One answer to one part, or that it was given up.
 
     Args:

@@ -1,10 +1,10 @@
 """What somebody remembers of every skill, worked out from the log by FSRS."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from datetime import datetime, timedelta
 
 from fsrs import Card, Rating, Scheduler
+from msgspec import Struct
 
 from rldrill.history.attempts import Attempt
 
@@ -14,8 +14,7 @@ _NEXT_DAY = (timedelta(hours=12),)
 _SCHEDULER = Scheduler(learning_steps=_NEXT_DAY, relearning_steps=_NEXT_DAY, enable_fuzzing=False)
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Skill:
+class Skill(Struct, frozen=True, order=True):
     """What is remembered or forgotten: a family at a level, whatever the numbers."""
 
     family: str
@@ -25,8 +24,7 @@ class Skill:
         return f"{self.family}, level {self.level}"
 
 
-@dataclass(frozen=True, slots=True)
-class Memory:
+class Memory(Struct, frozen=True):
     """How well a skill is remembered.
 
     Args:

@@ -2,10 +2,11 @@
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 from statistics import median
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
@@ -15,8 +16,7 @@ DAY = timedelta(days=1)
 AHEAD = 7
 
 
-@dataclass(frozen=True, slots=True)
-class Share:
+class Share(Struct, frozen=True):
     """How a topic or a family goes.
 
     Args:
@@ -38,8 +38,7 @@ class Share:
     seconds: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class Day:
+class Day(Struct, frozen=True):
     """The answers of one day, in the local time of the log's reader."""
 
     day: date
@@ -49,8 +48,7 @@ class Day:
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
-class Mistake:
+class Mistake(Struct, frozen=True):
     """A mistake that was made, in which family, and how often."""
 
     name: str
@@ -58,8 +56,7 @@ class Mistake:
     times: int
 
 
-@dataclass(frozen=True, slots=True)
-class Progress:
+class Progress(Struct, frozen=True):
     """All of it.
 
     Args:

@@ -3,8 +3,10 @@
 import errno
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.exam.exam import Layout
 from rldrill.exam.manifest import codes, is_manifest, read_exam
@@ -16,8 +18,7 @@ from rldrill.writing import write_bytes_atomically
 _TOLD = 4
 
 
-@dataclass(frozen=True)
-class Files:
+class Files(Struct, frozen=True):
     """Which files an exam has, by the name of the first.
 
     Args:

@@ -3,11 +3,12 @@
 import os
 from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from multiprocessing import get_context
 from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from rldrill.background import deaf_processes
 from rldrill.exam.exam import Exam, Version
@@ -27,8 +28,7 @@ _MANY = 6
 _REPLACED = 25
 
 
-@dataclass(frozen=True)
-class Task:
+class Task(Struct, frozen=True):
     """A version that is to be typeset.
 
     Args:

@@ -1,13 +1,12 @@
 """The fixed words of a printed exam, in each language; problems themselves are in English."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from rldrill.exam.choices import Language
 from rldrill.solutions.answers.rule import RULE
 
 
-@dataclass(frozen=True, slots=True)
-class Words:
+class Words(Struct, frozen=True):
     """What is printed around the problems; ``{}`` stands for what is put in."""
 
     name: str

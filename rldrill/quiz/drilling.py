@@ -3,8 +3,9 @@
 import difflib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
+
+from msgspec import Struct
 
 from rldrill.exam.selection import MAX_DRAWN
 from rldrill.exercise import Exercise, draw
@@ -29,8 +30,7 @@ _TRIES = 8
 _SEARCH, _STEP = 2.0, 0.1
 
 
-@dataclass(frozen=True, slots=True)
-class Drill:
+class Drill(Struct, frozen=True):
     """One mistake to be drilled.
 
     Args:

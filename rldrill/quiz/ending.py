@@ -2,8 +2,8 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from msgspec import Struct
 from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
@@ -46,8 +46,7 @@ def ending(session: Session, seconds: float, due: int | None = None) -> Iterator
     yield commands
 
 
-@dataclass(frozen=True, slots=True)
-class Weak:
+class Weak(Struct, frozen=True):
     """The skill that went worst, and the command that drills it."""
 
     title: str

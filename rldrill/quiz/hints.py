@@ -1,9 +1,9 @@
 """Hints as a ladder: the formula, what its symbols are here, then the working line by line."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 import sympy
+from msgspec import Struct
 
 from rldrill.exercise import Exercise
 from rldrill.problems.document import Block, Document, Equation, Paragraph
@@ -22,8 +22,7 @@ _LINES = 6
 _NO_FORMULA = "No formula is needed here: go by what is given, and by what you found before."
 
 
-@dataclass(frozen=True, slots=True)
-class Rung:
+class Rung(Struct, frozen=True):
     """One hint: what it is about, what it shows, and whether that is a line of the working."""
 
     says: str

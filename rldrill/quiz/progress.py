@@ -1,9 +1,9 @@
 """How progress looks: bars, a calendar, and the mistakes with the command that drills them."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from datetime import date
 
+from msgspec import Struct
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.progress_bar import ProgressBar
 from rich.table import Table
@@ -91,8 +91,7 @@ def _days(days: Iterable[Day]) -> Table:
     return table
 
 
-@dataclass(frozen=True)
-class _Calendar:
+class _Calendar(Struct, frozen=True):
     """A line for each day of the week, a column for each week; the more answers, the darker."""
 
     answers: Mapping[date, int]

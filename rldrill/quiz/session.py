@@ -2,11 +2,12 @@
 
 import secrets
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from itertools import takewhile
 from typing import TYPE_CHECKING
+
+from msgspec import Struct, field
 
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
@@ -31,16 +32,14 @@ class State(Enum):
     SHOWN = "working shown"
 
 
-@dataclass(frozen=True, slots=True)
-class Mistake:
+class Mistake(Struct, frozen=True):
     """What a wrong answer comes from: its name in the history, and words for it."""
 
     name: str
     says: str
 
 
-@dataclass
-class PartRecord:
+class PartRecord(Struct):
     """One part: what was tried, and how it ended.
 
     ``made`` holds the mistakes that every answer comes from; ``before`` counts the tries before the problem was begun
@@ -93,8 +92,7 @@ class PartRecord:
         return PartRecord(self.part, hints=self.hints, before=self.tries, given_up=seen)
 
 
-@dataclass
-class Record:
+class Record(Struct):
     """One problem of a session; ``sitting`` is its name in the history."""
 
     exercise: Exercise
@@ -152,8 +150,7 @@ class Record:
         return self.exercise.diagnosed(last.part, last.typed, last.verdict, verdicts, diagnosis.AT_THE_PROMPT)
 
 
-@dataclass
-class Session:
+class Session(Struct):
     """A whole quiz.
 
     Args:

@@ -4,11 +4,12 @@ import json
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct, field
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
@@ -21,16 +22,14 @@ _BEGUN, _HANDED_IN = "# begun: ", "# handed in: "
 _MOMENT = re.compile(rf"^(?:{_BEGUN}|{_HANDED_IN})(\S+)$", re.MULTILINE)
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(Struct, frozen=True):
     """A part of a problem: the index of the problem, and of the part in it."""
 
     problem: int
     part: int
 
 
-@dataclass
-class Sitting:
+class Sitting(Struct):
     """One version of an exam, and what somebody has typed.
 
     Args:

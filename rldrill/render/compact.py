@@ -2,8 +2,8 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
+from msgspec import Struct
 from rich.console import Console, ConsoleOptions, RenderResult
 from rich.segment import Segment
 
@@ -25,8 +25,7 @@ _OF_THE_PICTURE = re.compile(r" \(on the arrows: [^)]*\)")
 Lines = list[list[Segment]]
 
 
-@dataclass(frozen=True)
-class Compact:
+class Compact(Struct, frozen=True):
     """A document in at most so many lines, if there is a way to write it so.
 
     Args:

@@ -1,10 +1,11 @@
 """Two lines of mathematics that are nearly the same, and where they differ: as text, and as mathematics."""
 
 import re
-from dataclasses import fields, replace
 from difflib import SequenceMatcher
 from itertools import zip_longest
 from typing import Any, TypeAlias
+
+from msgspec.structs import fields, replace
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Fence, Glyph, Marked, Math, Row, row

@@ -6,10 +6,12 @@ called gamma is written ``"gamma"``, with its quotes.
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import partial
 from typing import Any
 from unicodedata import name, normalize
+
+from msgspec import Struct
+from msgspec.structs import fields, replace
 
 from rldrill.problems.mathematics import Math
 from rldrill.problems.pictures import Picture
@@ -49,8 +51,7 @@ def shows_all(encoding: str) -> bool:
     return encoding.lower().replace("_", "-").startswith("utf")
 
 
-@dataclass(frozen=True)
-class Spelling:
+class Spelling(Struct, frozen=True):
     """How texts, mathematics and pictures are written where the encoding is this one."""
 
     encoding: str = "utf-8"
@@ -100,7 +101,7 @@ def _relabelled(value: Any, write: Callable[[str], str]) -> Any:
         return write(value)
     if isinstance(value, tuple):
         return tuple(_relabelled(item, write) for item in value)
-    if is_dataclass(value) and not isinstance(value, type):
+    if isinstance(value, Struct):
         labelled = [field.name for field in fields(value) if field.name not in ("kind", "shape")]
         return replace(value, **{label: _relabelled(getattr(value, label), write) for label in labelled})
     return value

@@ -3,11 +3,11 @@
 import os
 import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from io import StringIO, TextIOWrapper
 from textwrap import wrap
 from typing import TypeAlias
 
+from msgspec import Struct
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
@@ -64,8 +64,7 @@ def plain(blocks: Iterable[Block]) -> str:
     return "\n".join(line.rstrip() for line in captured.get().splitlines()).rstrip("\n")
 
 
-@dataclass(frozen=True)
-class _Spelled:
+class _Spelled(Struct, frozen=True):
     """What is written as the console's encoding and width demand, which are known only when it is printed."""
 
     write: Callable[[Spelling, int], RenderableType]
@@ -124,8 +123,7 @@ def _text(spelling: Spelling, spans: Iterable[Span]) -> Text:
     return Text.assemble(*((spelling.plain(text), style) for text, style in styled))
 
 
-@dataclass(frozen=True)
-class _Beside:
+class _Beside(Struct, frozen=True):
     """Blocks side by side where the terminal is wide enough, else one under the other.
 
     A picture that is wider than the terminal gives way to what it stands beside.

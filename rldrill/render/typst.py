@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from rldrill.problems.document import Beside, Block, Document, Equation, Heading, Paragraph, Table
 from rldrill.problems.mathematics import EMPTY, Math
@@ -121,8 +122,7 @@ def document(blocks: Document, room: float = PAGE) -> str:
     return "".join(result)
 
 
-@dataclass(frozen=True, slots=True)
-class _Announced:
+class _Announced(Struct, frozen=True):
     """Narrow tables side by side, each below the sentence that announces it, and how wide each is at most."""
 
     pairs: tuple[tuple[Paragraph, Table], ...]

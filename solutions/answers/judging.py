@@ -2,10 +2,11 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.problems.expressions import GREEK
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
@@ -35,8 +36,7 @@ class Outcome(Enum):
     UNREADABLE = "unreadable"
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(Struct, frozen=True):
     """The judgement of one part.
 
     Args:
@@ -56,7 +56,7 @@ class Verdict:
     read: str = ""
     misconceptions: tuple[Misconception, ...] = ()
     wrong_cells: tuple[str, ...] = ()
-    value: Any = field(default=None, compare=False)
+    value: Any = None
     told: tuple[Misconception, ...] = ()
 
     def __repr__(self) -> str:

@@ -2,8 +2,10 @@
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from typing import Generic
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.problems.grammar import refuse_comma
 from rldrill.problems.spelling import Source, Unreadable, quoted
@@ -21,8 +23,7 @@ _MOST = 200
 _FORMS = 30
 
 
-@dataclass(frozen=True, slots=True)
-class Asked(Generic[Key]):
+class Asked(Generic[Key], Struct, frozen=True):
     """What must be typed.
 
     Args:
@@ -51,8 +52,7 @@ class Asked(Generic[Key]):
         return bool(_NOTHING.fullmatch(text) or _ZERO.fullmatch(text))
 
 
-@dataclass(frozen=True, slots=True)
-class _Item:
+class _Item(Struct, frozen=True):
     """What is typed for a key: ``cool: 3.5``."""
 
     name: str

@@ -2,8 +2,9 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
+
+from msgspec import Struct
 
 from rldrill.problems import parts
 from rldrill.problems.document import joined, pieces
@@ -37,8 +38,7 @@ KindT = TypeVar("KindT", bound=parts.Kind)
 Cell: TypeAlias = Reading | str | tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Samples:
+class Samples(Struct, frozen=True):
     """Texts that a kind makes up to test itself with, from a right answer."""
 
     right: tuple[str, ...]
@@ -46,8 +46,7 @@ class Samples:
     unreadable: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Allowed:
+class Allowed(Struct, frozen=True):
     """What a typed answer may contain.
 
     Args:

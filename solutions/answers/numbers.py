@@ -2,10 +2,10 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import sympy
 from flint import fmpq
+from msgspec import Struct
 
 from rldrill.problems.exact import PARAMETERS
 from rldrill.problems.grammar import read
@@ -33,8 +33,7 @@ _MOST_FORMS = 8
 _ENDLESS = frozenset({"nan", "inf", "infinity", "∞"})
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(Struct, frozen=True):
     """A number that was typed.
 
     Attributes:
@@ -88,8 +87,7 @@ def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) ->
     return _together(readings)
 
 
-@dataclass(frozen=True, slots=True)
-class _Form:
+class _Form(Struct, frozen=True):
     """A number in one form, with the text and the tree of it."""
 
     source: Source

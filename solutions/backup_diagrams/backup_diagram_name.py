@@ -1,7 +1,8 @@
 """A diagram is named by its root, by whether it branches, by its arcs and by how far it reaches."""
 
 from collections.abc import Callable
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from rldrill.problems.backup_diagrams.backup_diagram_name import Changed, Drawn, Several
 from rldrill.problems.backups import BACKUPS, TITLES, Backup, Change, backup_diagram

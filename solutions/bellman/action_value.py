@@ -1,6 +1,6 @@
 """One average over outcomes for every action; what is left open follows where two of them are to be equal."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from rldrill.problems.bellman.action_value import Given
 from rldrill.solutions import knowns

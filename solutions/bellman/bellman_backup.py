@@ -1,6 +1,6 @@
 """One application of the Bellman equation for V; what is left open follows from its two sides."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from rldrill.problems.bellman.bellman_backup import Given
 from rldrill.solutions import knowns

@@ -1,8 +1,9 @@
 """The residual of every state from the given values; they are right where all residuals are 0: that gives a reward."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.bellman.bellman_residual import Claimed, Given, Sought
 from rldrill.problems.document import joined

@@ -1,9 +1,10 @@
 """The values of the best policy, held against the optimality equation; or a reward, from an optimal value."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import product
 from typing import Any, NamedTuple
+
+from msgspec.structs import replace
 
 from rldrill.problems.bellman.optimal_value import Given, Optimal, Sought, of_two_steps
 from rldrill.problems.document import joined

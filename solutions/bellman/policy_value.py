@@ -1,7 +1,8 @@
 """The Bellman equations of all states, solved as a linear system."""
 
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.bellman.policy_value import Given
 from rldrill.problems.recurrence import predecessors

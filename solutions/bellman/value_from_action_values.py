@@ -1,8 +1,9 @@
 """The policy's mean of the action values, and their greatest; what is left open follows from the mean."""
 
 from collections import defaultdict
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.bellman.value_from_action_values import Given
 from rldrill.problems.exact import Parameter, Scalar

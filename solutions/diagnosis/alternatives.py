@@ -1,11 +1,11 @@
 """What may come out of one application of a formula instead of its value."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import sympy
 from flint import fmpq
+from msgspec.structs import replace
 from sympy import Basic, Expr
 
 from rldrill.solutions.diagnosis import weights

@@ -1,16 +1,16 @@
 """What somebody may have done, and what comes of it."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.formula.edits import Edit, Probe
 from rldrill.solutions.formula.formula import Formula, Misconception
 
 
-@dataclass(frozen=True, eq=False)
-class Cause:
+class Cause(Struct, frozen=True, eq=False):
     """One way to err, at one place or everywhere.
 
     Args:
@@ -52,8 +52,7 @@ class Cause:
 Again = Callable[[Mapping[str, Any]], Mapping[str, Any] | None]
 
 
-@dataclass(frozen=True, eq=False)
-class Candidate:
+class Candidate(Struct, frozen=True, eq=False):
     """A cause, the answers that it leads to, and how to get those that it leads to from other earlier ones."""
 
     cause: Cause

@@ -1,12 +1,12 @@
 """How long there is to search."""
 
-from dataclasses import dataclass, field
 from threading import Event
 from time import perf_counter
 
+from msgspec import Struct, field
 
-@dataclass
-class Clock:
+
+class Clock(Struct):
     """How long there is to search: some seconds, or until somebody says stop; without either, without end."""
 
     seconds: float | None = None

@@ -1,8 +1,9 @@
 """What an answer comes from: the causes that give it, weighed against each other and against chance."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
@@ -23,8 +24,7 @@ ROOM_FOR_TWO = 20_000
 _FEW = 4
 
 
-@dataclass(frozen=True)
-class Explained:
+class Explained(Struct, frozen=True):
     """The causes that an answer is put down to, the likeliest first, and how likely each of them is, 0 to 1."""
 
     causes: tuple[Cause, ...] = ()

@@ -3,12 +3,14 @@
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from enum import Enum
 from functools import partial
 from itertools import pairwise
 from typing import Any, TypeAlias
 from unicodedata import normalize
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Root, Row, Script
 from rldrill.solutions.answers.rule import is_right
@@ -45,8 +47,7 @@ class Standing(Enum):
     UNREAD = "unread"
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(Struct, frozen=True):
     """One line of somebody's working.
 
     Args:

@@ -1,10 +1,10 @@
 """The givens misread: another problem that somebody solves who reads one thing wrongly."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from msgspec import Struct
 from pydantic import BaseModel, ValidationError
 
 from rldrill.problems.fractions import Fraction
@@ -13,8 +13,7 @@ from rldrill.problems.fractions import Fraction
 _MOST = 24
 
 
-@dataclass(frozen=True)
-class Misread:
+class Misread(Struct, frozen=True):
     """Givens in which one thing is read wrongly, and what was done: a name, and what is said of it."""
 
     kind: str

@@ -3,11 +3,13 @@
 from bisect import bisect_left, bisect_right
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import combinations
 from math import isclose, isnan, nan
 from typing import Any
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.judging import wrong_cells
@@ -31,8 +33,7 @@ def _alike(one: float, other: float) -> bool:
     return isclose(one, other, rel_tol=_STRAIGHT, abs_tol=_STRAIGHT)
 
 
-@dataclass(eq=False, slots=True)
-class Outcome:
+class Outcome(Struct, eq=False):
     """A cause, and what it makes of the cells of an answer.
 
     Args:
@@ -52,8 +53,7 @@ class Outcome:
     again: Again | None = None
 
 
-@dataclass
-class _Sorted:
+class _Sorted(Struct):
     """Outcomes by what they make of one cell; those for which that is not known are apart."""
 
     place: int
@@ -347,8 +347,7 @@ def _size(value: Any) -> float:
     return nan if isinstance(value, str | tuple) else approximate(value)
 
 
-@dataclass(frozen=True)
-class _Line:
+class _Line(Struct, frozen=True):
     """How the cells depend on the numbers of a value, where that is a straight line."""
 
     start: Sequence[float]

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+from msgspec import Struct, field
 from sympy import Expr
 
 from rldrill.problems.family import Problem
@@ -26,8 +26,7 @@ UNDONE = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class Application:
+class Application(Struct, frozen=True, eq=False):
     """One application of a formula in the right working; ``nth`` says which of all its steps it is, from 0.
 
     The equations of a system are applications, too, each with the value that the solution gives its unknown.
@@ -106,8 +105,7 @@ def _key(case: Mapping[str, Any]) -> Any:
 Habit = Callable[["Replay", Formula, Mapping[str, Any]], Mapping[str, Any]]
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(Struct, frozen=True):
     """What is changed in a working.
 
     Args:

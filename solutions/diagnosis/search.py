@@ -2,11 +2,11 @@
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property, partial
 from typing import Any
 
 import sympy
+from msgspec.structs import replace
 from sympy import Expr
 
 from rldrill.solutions.diagnosis import weights

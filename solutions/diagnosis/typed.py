@@ -1,11 +1,11 @@
 """What was typed, beside what is right."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from flint import fmpq
+from msgspec import Struct
 
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.judging import wrong_cells
@@ -23,8 +23,7 @@ _LONG = 100
 _NOT_COMPUTED = float("nan")
 
 
-@dataclass
-class Typed:
+class Typed(Struct, dict=True):
     """What was typed for a part, beside what is right."""
 
     part: Part

@@ -8,10 +8,11 @@ lead to ten of them; one with seven digits proves nearly everything. Nobody leav
 
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from math import exp, inf, isnan, log
 from typing import Any, TypeAlias
+
+from msgspec import Struct, field
 
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
@@ -47,8 +48,7 @@ _FURTHEST = 3.0
 _SMALL = 12
 
 
-@dataclass
-class Weighing:
+class Weighing(Struct, dict=True):
     """The causes that give an answer, beside one another and beside chance."""
 
     outcomes: Outcomes

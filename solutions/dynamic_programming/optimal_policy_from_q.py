@@ -1,7 +1,8 @@
 """The action with the greatest value; a missing value is a reward and the best value after it."""
 
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.dynamic_programming.optimal_policy_from_q import Given
 from rldrill.problems.models import Dynamics

@@ -1,6 +1,6 @@
 """Sweeps of iterative policy evaluation: from the old values, or with the newest."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from rldrill.problems.dynamic_programming.policy_evaluation import Given
 from rldrill.solutions import knowns

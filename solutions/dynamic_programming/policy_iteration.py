@@ -1,8 +1,9 @@
 """Evaluation and improvement in turn; when improvement changes nothing, the policy is optimal."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_iteration import Given, Rounds, Threshold

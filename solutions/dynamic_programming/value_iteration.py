@@ -1,8 +1,9 @@
 """Sweeps of value iteration, over states or over actions, and the greedy actions; or a reward, from a value."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.value_iteration import Given, Sought, Swept

@@ -6,10 +6,10 @@ inside of a sum or maximum can also be made for one of its terms only: it then d
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 
 import sympy
+from msgspec import Struct
 from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.formula.node import Node
@@ -40,8 +40,7 @@ IN_ONE_TERM = frozenset(("other-taken", "summand-left-out", "summand-sign", "fac
 SCALE, SHIFT = sympy.Symbol("scale_"), sympy.Symbol("shift_")
 
 
-@dataclass(frozen=True)
-class Edit:
+class Edit(Struct, frozen=True):
     """One thing changed in a formula.
 
     Args:
@@ -61,8 +60,7 @@ class Edit:
     once: Expr | None = None
 
 
-@dataclass(frozen=True)
-class Probe:
+class Probe(Struct, frozen=True):
     """A place of a formula whose value can be another one: ``right`` depends on ``scale_`` and ``shift_``."""
 
     part: Expr

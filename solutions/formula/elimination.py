@@ -2,11 +2,12 @@
 
 from collections import Counter
 from collections.abc import Callable, Generator, Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
 import sympy
+from msgspec import Struct
+from msgspec.structs import replace
 from sympy import Expr
 
 from rldrill.solutions.closed_forms import rational
@@ -45,8 +46,7 @@ def largest(equations: Mapping[Hashable, Any]) -> int:
     return max((max(line[0], *line[1]) for line in lines if not isinstance(line, str)), default=0)
 
 
-@dataclass(frozen=True, slots=True)
-class _Pen:
+class _Pen(Struct, frozen=True):
     """How unknowns, products, sums, and right sides with their values are written; or what is noted of them instead."""
 
     names: Mapping[Hashable, Any]

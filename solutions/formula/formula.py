@@ -1,11 +1,11 @@
 """A formula of the sheet, and the mistakes that are made with it."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property, lru_cache
 from typing import Any
 
+from msgspec import Struct, field
 from sympy import Expr
 
 from rldrill.problems.document import Equation
@@ -22,8 +22,7 @@ class Place(Enum):
     WORKING = "working"
 
 
-@dataclass(frozen=True)
-class Misconception:
+class Misconception(Struct, frozen=True, eq=False, dict=True):
     """A typical mistake; two of one name that say the same are the same mistake.
 
     Either formulas are misread: then they say how (``Formula.misread``). Or it is a slip in the procedure: then
@@ -38,8 +37,11 @@ class Misconception:
 
     name: str
     says: str
-    when: Callable[[Any], bool] | None = field(default=None, compare=False)
-    solve: Callable[[Any, Any], None] | None = field(default=None, compare=False)
+    when: Callable[[Any], bool] | None = None
+    solve: Callable[[Any, Any], None] | None = None
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Misconception) and self.key == other.key
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -69,8 +71,7 @@ def slip(
     return lambda solve: Misconception(name, says, when, solve)
 
 
-@dataclass(frozen=True, eq=False)
-class Formula:
+class Formula(Struct, frozen=True, eq=False, dict=True):
     """One formula, stated once.
 
     Args:

@@ -1,8 +1,9 @@
 """One linear system for every feature, then the mean over the start distribution."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.fractions import Fraction

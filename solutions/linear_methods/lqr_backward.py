@@ -1,7 +1,8 @@
 """The Riccati recursion backwards from the horizon: at every time first the gain, then the value matrix."""
 
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_backward import Given

@@ -1,7 +1,8 @@
 """The gain from the sheet's formula, in matrices of rationals."""
 
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.linear_methods.lqr_gain import Given
 from rldrill.solutions import linear_quadratic

@@ -1,6 +1,6 @@
 """A rollout, one time after the other: action, reward, next state."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_reward import Given

@@ -1,8 +1,9 @@
 """The formula sheet: one module per section; each formula is stated here and nowhere else."""
 
 import importlib
-from dataclasses import dataclass
 from functools import cache
+
+from msgspec import Struct
 
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.formula.formula import Formula
@@ -24,8 +25,7 @@ SECTIONS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Gallery:
+class Gallery(Struct, frozen=True):
     """Pictures of a section, and a sentence on how to read them."""
 
     pictures: tuple[Picture, ...] = ()

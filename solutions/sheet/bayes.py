@@ -1,9 +1,9 @@
 """Section 9 of the sheet: Bayesian methods."""
 
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from msgspec.structs import replace
 from sympy import Pow, evaluate, factorial, log
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word

@@ -1,9 +1,9 @@
 """What the lecture names without formulas: kinematics of arms, and meta-learning."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 
+from msgspec.structs import replace
 from sympy import Add, Expr, Pow, cos, evaluate, sin
 
 from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, row, variable, word

@@ -1,8 +1,8 @@
 """Section 3 of the sheet: dynamic programming."""
 
-from dataclasses import replace
 from functools import cache
 
+from msgspec.structs import replace
 from sympy import Abs, Expr, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, number, operator, row, variable

@@ -3,10 +3,10 @@
 The values and updates that are linear in these features are not printed there.
 """
 
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from msgspec.structs import replace
 from sympy import Abs, Integer, Rational, evaluate, exp
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable, word

@@ -1,8 +1,8 @@
 """Section 1 of the sheet: the Markov property, returns and the goal."""
 
-from dataclasses import replace
 from functools import cache
 
+from msgspec.structs import replace
 from sympy import Expr, Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, listed, operator, relation, row, variable, word

@@ -1,12 +1,12 @@
 """Section 7 of the sheet: linear methods."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from enum import Enum
 from functools import cache
 from math import factorial
 from typing import Any, NamedTuple
 
+from msgspec.structs import replace
 from sympy import Add, Expr, Mul, Pow, Rational, S, evaluate, exp, sqrt
 
 from rldrill.problems.linear_quadratic import Notation

@@ -1,10 +1,10 @@
 """Section 4 of the sheet: temporal difference learning."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from msgspec.structs import replace
 from sympy import Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Script, variable

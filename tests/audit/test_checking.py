@@ -1,12 +1,12 @@
 """The audit notices what it is there to notice."""
 
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
 from flint import fmpq
+from msgspec.structs import replace
 
 import rldrill
 from rldrill.audit import checking as audit

@@ -206,9 +206,8 @@ def test_the_audit_exits_1_on_a_disagreement(monkeypatch: pytest.MonkeyPatch) ->
     from rldrill.solutions import solution
 
     real = solution.solver
-    from dataclasses import replace
-
     import numpy as np
+    from msgspec.structs import replace
 
     def broken(family):  # type: ignore[no-untyped-def]
         return replace(real(family), oracle=lambda given: [np.add(each, 1e9) for each in real(family).oracle(given)])

@@ -2,12 +2,12 @@
 
 import json
 import os
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from rldrill.exam.blueprint import Blueprint
 from rldrill.exam.blueprint import Entry as Asked

@@ -1,11 +1,11 @@
 """``rldrill history`` as it is used: out, in, and gone."""
 
 import sqlite3
-from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 from typer.testing import CliRunner
 
 from rldrill.cli import app

@@ -7,11 +7,11 @@ import subprocess
 import sys
 import time
 from contextlib import closing
-from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from rldrill.history import log
 from rldrill.history.attempts import Attempt, from_lines, to_line
@@ -36,7 +36,7 @@ SECOND = replace(
 #: Writes answer after answer, and says each as soon as it is written.
 WRITER = """
 import sys
-from dataclasses import replace
+from msgspec.structs import replace
 from itertools import count
 from pathlib import Path
 sys.path.insert(0, {tests!r})

@@ -1,11 +1,11 @@
 """What is remembered: how one problem is rated, and what FSRS makes of the log."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 import pytest
 from fsrs import Rating
+from msgspec.structs import replace
 
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Skill, rated, remembered

@@ -6,8 +6,9 @@ PDFs go to the folder if one is given.
 
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
+
+from msgspec.structs import replace
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "shared"))
 

@@ -1,10 +1,10 @@
 """A family that is not complete, or contradicts itself, tells its author what to do, wherever that is met first."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import BrokenFamily

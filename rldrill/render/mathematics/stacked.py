@@ -1,7 +1,8 @@
 """Mathematics on several lines of text: matrices as matrices, everything else on the middle line."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from rldrill.problems.mathematics import Fence, Marked, Math, Row, Script, Tabular, word
 from rldrill.render.mathematics.unicode import unicode
@@ -15,8 +16,7 @@ _BRACKETS = {
 }
 
 
-@dataclass(frozen=True)
-class Stack:
+class Stack(Struct, frozen=True):
     """Lines of the same width; the one at ``base`` is in line with what stands beside it."""
 
     lines: tuple[str, ...]

@@ -1,13 +1,12 @@
 """Where mathematics too wide for a line may be broken: between terms, then between factors, then within brackets."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from rldrill.problems.mathematics import Big, Fence, Fraction, Glyph, Math, Row, Script, Tabular
 from rldrill.render.mathematics.typst import CLASSES, grouped, typst_fence, typst_row
 
 
-@dataclass(frozen=True, slots=True)
-class _Tree:
+class _Tree(Struct, frozen=True):
     """Mathematics, and the parts that it falls into where it does not fit on a line."""
 
     whole: str

@@ -1,8 +1,7 @@
 """Where the labels of a state diagram lie: over nothing else, and near what they belong to."""
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 
 from rldrill.render.pictures.curves import COARSE, Ints, boxes_around, overlapping
 from rldrill.render.pictures.graph_search import HARD, Action, Drawing, States, label_size

@@ -1,9 +1,9 @@
 """Where the action dots of a state diagram lie, and how their curves run."""
 
-from dataclasses import dataclass, field
 from math import isqrt
 
 import numpy as np
+from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from rldrill.render.pictures.curves import (
@@ -32,8 +32,7 @@ _BENDS = np.array([0, 1, -1, 2, -2, 4, -4], dtype=np.int64)
 _BACK = np.array([7, -7, 10, -10, 13, -13], dtype=np.int64)
 
 
-@dataclass(frozen=True)
-class Action:
+class Action(Struct, frozen=True):
     """An action of a state: where it may lead, and what stands on the arrows there."""
 
     state: int
@@ -42,8 +41,7 @@ class Action:
     labels: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class States:
+class States(Struct, frozen=True):
     """The states' ellipses: centres of shape (n, 2), half axes."""
 
     centres: Ints
@@ -57,8 +55,7 @@ class States:
         )
 
 
-@dataclass(frozen=True)
-class Drawing:
+class Drawing(Struct, frozen=True):
     """A state diagram laid out: curves are start, control and end; labels lie with their middle at a point."""
 
     states: States
@@ -70,8 +67,7 @@ class Drawing:
     labels: list[tuple[Ints, str]] = field(default_factory=list)
 
 
-@dataclass
-class _Options:
+class _Options(Struct):
     """All ways to draw one action: every place of its dot, and from there every curve to every target."""
 
     places: Ints
@@ -83,8 +79,7 @@ class _Options:
     sizes: list[tuple[int, int]]
 
 
-@dataclass
-class _Choice:
+class _Choice(Struct):
     place: int
     bends: list[int]
 

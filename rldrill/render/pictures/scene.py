@@ -1,7 +1,8 @@
 """Scenes: what a vector picture is made of, in points, with y pointing down."""
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from rldrill.render.mathematics.unicode import inline
 
@@ -15,8 +16,7 @@ _NARROW_SIGNS = frozenset("iljft.,;:'′!|()[] /₀₁₂₃₄₅₆₇₈₉�
 _WIDE_SIGNS = frozenset("mwMW−+=<>←→")
 
 
-@dataclass(frozen=True, slots=True)
-class Path:
+class Path(Struct, frozen=True):
     """Straight lines from point to point; closed, it is a polygon. Fills are grey levels, 0 black to 1 white."""
 
     points: tuple[Point, ...]
@@ -26,8 +26,7 @@ class Path:
     dashed: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
+class Curve(Struct, frozen=True):
     """A quadratic Bézier curve."""
 
     start: Point
@@ -36,8 +35,7 @@ class Curve:
     width: float = 0.6
 
 
-@dataclass(frozen=True, slots=True)
-class Ellipse:
+class Ellipse(Struct, frozen=True):
     """An ellipse, or a circle."""
 
     centre: Point
@@ -46,8 +44,7 @@ class Ellipse:
     width: float = 0.6
 
 
-@dataclass(frozen=True, slots=True)
-class Caption:
+class Caption(Struct, frozen=True):
     """A text: ``at`` is where its anchor lies; ``plate`` puts it on a white ground."""
 
     at: Point
@@ -60,8 +57,7 @@ class Caption:
 Shape: TypeAlias = Path | Curve | Ellipse | Caption
 
 
-@dataclass(frozen=True, slots=True)
-class Bounds:
+class Bounds(Struct, frozen=True):
     """A rectangle with its sides parallel to the axes."""
 
     left: float
@@ -76,8 +72,7 @@ class Bounds:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Struct, frozen=True):
     """Shapes, later ones over earlier ones."""
 
     shapes: tuple[Shape, ...]

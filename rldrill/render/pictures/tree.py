@@ -1,6 +1,6 @@
 """Backup diagrams with signs: ○ a state, ● an action, □ the end, ╰─╯ the arc of a maximum."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from rldrill.problems.pictures import Branch, Node
 from rldrill.render.mathematics.unicode import inline
@@ -9,8 +9,7 @@ _SIGNS = {"state": "○", "action": "●", "end": "□"}
 _GAP = 3
 
 
-@dataclass(frozen=True, slots=True)
-class _Block:
+class _Block(Struct, frozen=True):
     """Lines of one width, and the column in which the node above hangs them."""
 
     lines: list[str]
