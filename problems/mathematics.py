@@ -231,11 +231,25 @@ def _sequence(tokens: Sequence[re.Match[str]], at: int, closing: str | None) -> 
                 body = Script(body, below, above)
             items.append(body)
             continue
-        item, at = _single(tokens, at)
+        opens = token == "|" and (not items or is_sign(items[-1]))  # and is not that of p(a|b)
+        item, at = _fenced(tokens, at, "|") if opens else _single(tokens, at)
         items.append(item)
     if closing is not None:
         raise ValueError(f"{closing!r} is missing in mathematics")
     return items, at
+
+
+def _fenced(tokens: Sequence[re.Match[str]], at: int, closing: str) -> tuple[Math, int]:
+    items, end = _sequence(tokens, at + 1, closing)
+    if tokens[end][0] != closing:
+        raise ValueError(f"{closing!r} is missing in mathematics")
+    inside, opening = row(*items), tokens[at][0]
+    return (inside if opening == "{" else Fence(inside, opening, closing)), end + 1
+
+
+def is_sign(item: Math) -> bool:
+    """Whether something is an operator or a relation."""
+    return isinstance(item, Glyph) and item.style in ("operator", "relation")
 
 
 def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
@@ -244,11 +258,7 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
     match = tokens[at]
     token = match[0]
     if token in _OPENING:
-        items, end = _sequence(tokens, at + 1, _OPENING[token])
-        inside = row(*items)
-        if tokens[end][0] != _OPENING[token]:
-            raise ValueError(f"{_OPENING[token]!r} is missing in mathematics")
-        return (inside if token == "{" else Fence(inside, token, _OPENING[token])), end + 1
+        return _fenced(tokens, at, _OPENING[token])
     if match.lastgroup == "quoted":
         return name(token[1:-1]), at + 1
     if match.lastgroup == "number":

@@ -23,6 +23,7 @@ from rldrill.commands import worksheet as worksheet_command
 from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.exam import Exam, Head, Layout, Version
 from rldrill.exam.planning import plan
+from rldrill.print.exam_page import setup
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
@@ -177,11 +178,31 @@ def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
         for item in (long, short)
         for part in item.parts
     }
-    assert rooms["reinforce", "b"] == Fraction(32, 10)  # eight minutes of four millimetres, the most
+    assert rooms["reinforce", "b"] == Fraction(48, 10)  # twelve minutes of four millimetres, the most
     yes_no = next(part for part in short.parts if part.kind.name == "yes/no")
     assert rooms["markov-property", yes_no.label] == 0
     part = long.parts[1]
     assert space_of(long, part, "none") == 0 < space_of(long, part, "tight") < space_of(long, part, "wide")
+
+
+def test_an_answer_with_letters_in_it_has_wider_cells() -> None:
+    for level, cell in ((2, "2.4cm"), (3, "5.2cm")):  # at level 3 the values are asked for in terms of γ
+        version = Version("A", (draw("policy-value", level, 1),), (0,))
+        assert f", {cell}, [" in worksheet_source(Exam(Head(), 1, (version,)), version)
+
+
+def test_no_single_wrong_answer_is_left_to_the_next_page(tmp_path: Path) -> None:
+    """Of three wrong answers of a line each, pages are tried that end between any two of them."""
+    version = Version("A", (), (0,))
+    exam = Exam(Head(), 1, (version,))
+    rows = ", ".join(f"([{word}], [is wrong])" for word in ("One", "Two", "Three"))
+    split = set()
+    for room in range(230, 260):
+        source = f"{setup(exam, version, 'Key', to_fill_in=False)}#v({room}mm)\n#mistakes([Wrong], {rows})\n"
+        (path := tmp_path / "key.pdf").write_bytes(pdf(source, accessible=False))
+        _, *rest = text_of(path).split("\f")
+        split.add(sum(word in "".join(rest) for word in ("One", "Two", "Three")))
+    assert split == {0, 2, 3}
 
 
 def test_short_options_stand_side_by_side_and_are_read_down_the_columns() -> None:

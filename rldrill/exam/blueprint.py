@@ -102,12 +102,12 @@ class Blueprint(_Table):
     @property
     def head(self) -> Head:
         """What is said of the exam as a whole."""
-        return Head(**{name: getattr(self, name) for name in Head.__dataclass_fields__})
+        return Head(**{name: getattr(self, name) for name in Head.__struct_fields__})
 
     @property
     def layout(self) -> Layout:
         """How it is printed."""
-        return Layout(**{name: getattr(self, name) for name in Layout.__dataclass_fields__})
+        return Layout(**{name: getattr(self, name) for name in Layout.__struct_fields__})
 
     @property
     def folder(self) -> Path:

@@ -175,7 +175,7 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
         FileError: the file cannot be read, or is no manifest; a problem that cannot be made is told with its version.
     """
     data, where = _checked(path), shown(path)
-    head = Head(**{name: getattr(data, name) for name in Head.__dataclass_fields__})
+    head = Head(**{name: getattr(data, name) for name in Head.__struct_fields__})
     layout = Layout(**(data.layout or _Layout(paper=data.paper, ids=True)).model_dump())
     makes = tuple(partial(_made, version, where) for version in data.versions)
     return Exam(head, data.seed, (), data.partial, layout, data.sealed, data.scale), makes

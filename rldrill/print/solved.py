@@ -64,7 +64,7 @@ def _with_mathematics(sentence: str) -> str:
 def _read(exercise: Exercise, mistake: Misconception) -> str:
     """The formula as somebody reads it who makes the mistake."""
     read = misreading(exercise.solution, mistake)
-    return "" if read is None else f" #misread({quoted(unicode_text(read))}, ${line(read)}$)"
+    return "" if read is None else f" #tall({quoted(unicode_text(read))}, ${line(read)}$)"
 
 
 def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, Misconception]]:

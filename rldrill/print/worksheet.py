@@ -19,13 +19,14 @@ from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import minutes_of
 
 #: The least room for a minute of working, in centimetres; pages give more where they have it. A part that is only
-#: ticked has none, and what takes long has room for eight minutes.
+#: ticked has none, and what takes long has room for twelve minutes.
 SPACES = {"tight": Fraction(3, 10), "normal": Fraction(4, 10), "wide": Fraction(1)}
-_LEAST, _LONGEST = Fraction(8, 10), 8
+_LEAST, _LONGEST = Fraction(8, 10), 12
 _PER_LINE = 14
 #: So many options stand side by side at most, where a line has room for so many signs, with so many between them.
 _OPTIONS, _LINE, _BETWEEN = 4, 108, 8
-_COLUMNS = 5
+#: How wide the cells for answers are, and how many stand side by side at most; wider for answers with letters in them.
+_NARROW, _WIDE = ("2.4cm", 5), ("5.2cm", 3)
 
 
 def worksheet_source(exam: Exam, version: Version) -> str:
@@ -108,11 +109,11 @@ def _field(exercise: Exercise, part: Part, told: Words) -> str:
             lines = answer_kind(kind).lines(exercise.solution.answers[part.label])
             lefts = all_in_notation([left for left, _ in lines if left is not None])
             names = [f"[{equation(left)}]" for left in lefts]
-            columns = even_columns(len(names))
-            table = f"#empty-table({columns}, {', '.join(names)})"
+            cell, most = _WIDE if exercise.solution.problem.parameters else _NARROW
+            table = f"#empty-table({even_columns(len(names), most)}, {cell}, {', '.join(names)})"
             return table if names else f"#answer-line([{plain(told.answer)}])"
 
 
-def even_columns(cells: int) -> int:
+def even_columns(cells: int, most: int = _NARROW[1]) -> int:
     """How many cells stand side by side, so that no line is much shorter than the others."""
-    return math.ceil(cells / math.ceil(cells / _COLUMNS)) if cells else 1
+    return math.ceil(cells / math.ceil(cells / most)) if cells else 1

@@ -8,8 +8,7 @@ from typing import Any, TypeAlias
 from msgspec.structs import fields, replace
 
 from rldrill.problems.document import Equation
-from rldrill.problems.mathematics import Fence, Glyph, Marked, Math, Row, row
-from rldrill.render.mathematics.breaking import is_sign
+from rldrill.problems.mathematics import Fence, Glyph, Marked, Math, Row, is_sign, row
 from rldrill.render.mathematics.unicode import ABOVE, BELOW
 
 #: A piece of a line, and whether the other line has another one there, or none.

@@ -18,12 +18,12 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
-from rldrill.problems.mathematics import Math, Row
+from rldrill.problems.mathematics import Math, Row, is_sign
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.differences import differences
 from rldrill.render.encodable import Spelling
-from rldrill.render.mathematics.breaking import broken, is_sign
+from rldrill.render.mathematics.breaking import broken
 from rldrill.render.mathematics.unicode import GLUE
 
 #: How wide output is when nobody's terminal says: wide enough that nothing is cut.

@@ -34,7 +34,8 @@ def block(item: Block, room: float = PAGE) -> str:
     """A block as Typst markup; what is wider than the room, in widths of the type, is measured and fitted."""
     match item:
         case Paragraph(words):
-            return f"#par[{text(words)}]\n"
+            said = f"par[{text(words)}]"
+            return f"#block(sticky: true, {said})\n" if words.endswith(":") else f"#{said}\n"
         case Heading(words):
             return f"#block(sticky: true, strong[{text(words)}])\n"
         case Table(header, rows):
@@ -115,8 +116,9 @@ def document(blocks: Document, room: float = PAGE) -> str:
             waiting = []
         if isinstance(item, _Announced):
             widths = ", ".join(f"{each:.1f}em" for each in item.widths)
-            bodies = "".join(f"[{block(words)}{block(table)}]" for words, table in item.pairs)
-            result.append(f"#announced(({widths})){bodies}\n")
+            columns = zip(*item.pairs, strict=True)
+            sentences, tables = (", ".join(f"[{block(each)}]" for each in column) for column in columns)
+            result.append(f"#announced(({widths}), ({sentences}), ({tables}))\n")
         elif item is not None:
             result.append(block(item, room))
     return "".join(result)
@@ -135,11 +137,14 @@ def _announced_together(blocks: Document, room: float) -> Iterator[Block | _Anno
     while at < len(blocks):
         pairs: list[tuple[Paragraph, Table]] = []
         widths: list[float] = []
-        while (pair := _pair(blocks[at + 2 * len(pairs) :])) and sum(widths) + (wide := _width_of(*pair)) <= room:
+        while (pair := _pair(blocks[at + 2 * len(pairs) :])) and sum(widths) + (
+            wide := _width_of(*pair, lines=2)
+        ) <= room:
             pairs.append(pair)
             widths.append(wide + _BETWEEN)
         if len(pairs) > 1:
-            yield _Announced(tuple(pairs), tuple(widths))
+            whole = [_width_of(*pair, lines=1) + _BETWEEN for pair in pairs]
+            yield _Announced(tuple(pairs), tuple(whole if sum(whole) <= room else widths))
             at += 2 * len(pairs)
         else:
             yield blocks[at]
@@ -153,9 +158,9 @@ def _pair(blocks: Document) -> tuple[Paragraph, Table] | None:
     return None
 
 
-def _width_of(words: Paragraph, table: Table) -> float:
-    """How wide a table is with its sentence above it, on two lines at most."""
-    return max(_width(table), _SIGN * len(unicode_text(words)) / 2)
+def _width_of(words: Paragraph, table: Table, lines: int) -> float:
+    """How wide a table is with its sentence above it, on so many lines at most."""
+    return max(_width(table), _SIGN * len(unicode_text(words)) / lines)
 
 
 def _is_short(equation: Equation) -> bool:

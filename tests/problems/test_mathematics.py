@@ -28,6 +28,9 @@ one, two = number(1), number(2)
 @pytest.mark.parametrize(
     ("text", "read"),
     [
+        ("|a| = 1", row(Fence(a, "|", "|"), relation("="), one)),
+        ("2 = |a| + |b|", row(two, relation("="), Fence(a, "|", "|"), operator("+"), Fence(b, "|", "|"))),
+        ("(a|b)", Fence(row(a, punctuation("|"), b))),
         ("a", a),
         ("ab", word("ab")),
         ("xy\u0304", Accent(word("xy"), "bar")),

@@ -64,4 +64,10 @@ def test_every_writer_underlines_and_colours() -> None:
     assert latex(both) == r"r + {\color{red}{\underline{V}}}"
     assert '<mrow class="marked"><mi>V</mi></mrow>' in mathml(both)
     assert typst(both) == r"r \+ marked(V)"
-    assert typst(Marked(Glyph("+", "operator"))) == r'class("binary", marked(\+))'
+
+
+@pytest.mark.parametrize(("sign", "kind"), [(Glyph("+", "operator"), "binary"), (Glyph("≤", "relation"), "relation")])
+def test_a_sign_alone_is_not_underlined_for_that_would_make_another_sign_of_it(sign: Glyph, kind: str) -> None:
+    assert typst(Marked(sign)) == f'class("{kind}", grounded({typst(sign)}))'
+    assert latex(Marked(sign)) == rf"{{\color{{red}}{{\boxed{{{latex(sign)}}}}}}}"
+    assert f'<mrow class="marked sign"><mo>{sign.text}</mo></mrow>' in mathml(Marked(sign))

@@ -1,6 +1,7 @@
 """Blocks and mathematics as Typst: all compiles, nothing is read as code, nothing is too wide."""
 
 import math
+import re
 from collections.abc import Callable
 from itertools import product
 from pathlib import Path
@@ -190,10 +191,27 @@ def test_narrow_tables_stand_side_by_side_each_below_the_sentence_that_announces
     first, second = Paragraph("The policy is:"), Paragraph("The values are:")
     together = document((first, _TABLE, second, _TABLE))
     assert together.startswith("#announced((")
-    assert together.index("policy") < together.index("values")  # as they are read
+    sentences, *tables = together.split("grid-table")
+    assert sentences.index("policy") < sentences.index("values")  # as they are read; the tables begin at one height
+    assert len(tables) == 2
     assert not document((first, _TABLE, Paragraph("They are known."), _TABLE)).count("#announced")
     wide = Table(tuple("abcdefghijklmnopqr"), (tuple("abcdefghijklmnopqr"),))
     assert not document((first, wide, second, _TABLE)).count("#announced")
+
+
+def test_a_sentence_above_a_table_takes_one_line_where_there_is_room_and_two_where_there_is_not() -> None:
+    def widths(*sentences: str) -> list[float]:
+        blocks = [block for sentence in sentences for block in (Paragraph(sentence), _TABLE)]
+        return [float(width) for width in re.findall(r"([\d.]+)em", document(tuple(blocks)).partition(")")[0])]
+
+    alone = "The start state of an episode is:"  # 33 signs
+    assert widths(alone, "The policy is:")[0] == pytest.approx(33 * 0.65 + 2, abs=0.06)
+    assert widths(alone, "The policy is:", alone)[0] == pytest.approx(33 * 0.65 / 2 + 2, abs=0.06)
+
+
+def test_what_announces_something_stays_on_the_page_of_what_it_announces() -> None:
+    assert block(Paragraph("Sweep 2:")) == '#block(sticky: true, par[#"Sweep 2:";])\n'
+    assert block(Paragraph("Sweep 2.")) == '#par[#"Sweep 2.";]\n'
 
 
 def test_three_narrow_tables_stand_on_as_many_lines_as_they_need() -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 
-from rldrill.problems.mathematics import Glyph, Math, Row
+from rldrill.problems.mathematics import Glyph, Math, Row, is_sign
 
 #: How wide something is, by itself or as a further line, whose sign has a space behind it.
 Wide = Callable[[Math, bool], int]
@@ -47,11 +47,6 @@ def _parted(items: Sequence[Math], begins: Callable[[Math, Math], bool]) -> Iter
     """The items in pieces, a new one before each that begins one."""
     starts = [0, *(index for index, pair in enumerate(pairwise(items), 1) if begins(*pair)), len(items)]
     return (items[start:stop] for start, stop in pairwise(starts))
-
-
-def is_sign(item: Math) -> bool:
-    """Whether something is an operator or a relation."""
-    return isinstance(item, Glyph) and item.style in ("operator", "relation")
 
 
 def _is_relation(_: Math, item: Math) -> bool:

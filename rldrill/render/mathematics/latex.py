@@ -14,6 +14,7 @@ from rldrill.problems.mathematics import (
     Row,
     Script,
     Tabular,
+    is_sign,
 )
 from rldrill.render.mathematics.unicode import ABOVE, BELOW
 
@@ -85,7 +86,8 @@ def latex(math: Math) -> str:
         case Accent(body, mark):
             return rf"\{mark}{{{latex(body)}}}"
         case Marked(body):  # MathJax takes the braces behind a colour for all that it colours, LaTeX does not
-            return rf"{{\color{{red}}{{\underline{{{latex(body)}}}}}}}"
+            around = "boxed" if is_sign(body) else "underline"  # a line below a plus would make another sign of it
+            return rf"{{\color{{red}}{{\{around}{{{latex(body)}}}}}}}"
         case Tabular(rows, left, right):
             lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
             return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"

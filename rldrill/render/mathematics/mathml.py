@@ -16,6 +16,7 @@ from rldrill.problems.mathematics import (
     Row,
     Script,
     Tabular,
+    is_sign,
 )
 from rldrill.render.mathematics.unicode import unmarked
 
@@ -60,7 +61,7 @@ def element(math: Math) -> str:
         case Accent(body, mark):
             return f'<mover accent="true">{element(body)}<mo stretchy="false">{_MARKS[mark]}</mo></mover>'
         case Marked(body):
-            return f'<mrow class="marked">{element(body)}</mrow>'
+            return f'<mrow class="marked{" sign" * is_sign(body)}">{element(body)}</mrow>'
         case Tabular(rows, left, right):
             lines = "".join(f"<mtr>{''.join(f'<mtd>{element(cell)}</mtd>' for cell in line)}</mtr>" for line in rows)
             return f"<mrow>{_fence(left, 'prefix')}<mtable>{lines}</mtable>{_fence(right, 'postfix')}</mrow>"

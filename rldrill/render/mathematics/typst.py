@@ -69,8 +69,7 @@ def typst(math: Math) -> str:
             return f"{_ACCENTS[mark]}({typst(body)})"
         case Marked(body):
             kind = CLASSES.get(body.style) if isinstance(body, Glyph) else None
-            marked = f"marked({typst(body)})"
-            return f'class("{kind}", {marked})' if kind else marked
+            return f'class("{kind}", grounded({typst(body)}))' if kind else f"marked({typst(body)})"
         case Tabular(rows, left, right):
             lines = "; ".join(", ".join(map(typst, line)) for line in rows)
             return f"lr({typst_fence(left)} mat(delim: #none, {lines}) {typst_fence(right)})"
