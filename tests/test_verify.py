@@ -135,7 +135,7 @@ def a_point_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
         ('"sweep.toml" = {a = [4, 1.5]}', "a", "right", 1),
         ('"sweep.toml" = {a = [4, 2]}', "a", "wrong", Fraction(1, 2)),
         ('"sweep.toml" = {a = [4]}', "a", "unreadable", 0),
-        ('"sweep.toml" = {a = {rim = 4}}', "a", "unreadable", 0),
+        ('"sweep.toml" = {a = {rim = 4}}', "a", "wrong", Fraction(1, 2)),
         ('"sweep.toml" = {a = {rim = 4, slope = "1,5"}}', "a", "unreadable", 0),
         ('"sweep.toml" = {a = "4, 1.5", b = "drill, drive"}', "b", "right", 1),
         ('"sweep.toml" = {a = "4, 1.5", b = ["drill", "drive"]}', "b", "right", 1),

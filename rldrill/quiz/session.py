@@ -2,7 +2,7 @@
 
 import secrets
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from fractions import Fraction
 from itertools import takewhile
@@ -12,7 +12,7 @@ from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Part, YesNo
 from rldrill.quiz.mistakes import called
-from rldrill.solutions.answers.judging import Outcome
+from rldrill.solutions.answers.judging import Outcome, Verdict
 
 if TYPE_CHECKING:
     from rldrill.diagnosis import Diagnosis
@@ -120,6 +120,8 @@ class Record:
         before = takewhile(lambda record: record is not current, self.parts)
         texts = {record.part.label: record.counted[-1].typed for record in before if record.counted}
         graded = self.exercise.grade({**texts, current.part.label: text})[current.part.label]
+        if graded.verdict is not None and graded.verdict.missing:  # it can be typed again
+            graded = replace(graded, verdict=Verdict(Outcome.UNREADABLE, graded.verdict.missing))
         current.answers.append(graded)
         current.made.append(self._mistakes(current, graded))
         if graded.accepted:

@@ -85,6 +85,19 @@ def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, ma
     assert student(report, "Ben").score.points == 3
 
 
+def test_an_entry_that_is_left_out_costs_what_a_wrong_one_costs(tmp_path: Path) -> None:
+    blueprint = Blueprint(problems=(Asked(id="td-zero/2/18", partial=("entries", "all")),), seed=1, decimal_mark=",")
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    # (a) is −6; 16/5; −3, as above, and of 3 points; (b) is medium: 111/25, critical: 47/5.
+    for typed in ("-6; ; -3", "-6; 0; -3", "-6; ; -3,0", "delta_0 = -6, delta_2 = -3"):
+        rows = [("Ann", "", "1", "a", typed), ("Ann", "", "1", "b", "critical: 9,4")]
+        report = graded(tmp_path, rows, Assignment(tmp_path / "exam.json"))
+        a, b = student(report, "Ann").parts
+        assert (a.judged.verdict, a.score.points) == ("wrong", 2), typed
+        assert (b.judged.verdict, b.score.points) == ("wrong", 0)
+        assert b.judged.reason == "Not right at medium (left out); the rest is right."
+
+
 def test_cheating_earns_nothing(tmp_path: Path) -> None:
     path, made = exam(tmp_path, versions=2)
     a, b = made.versions
