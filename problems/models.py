@@ -215,8 +215,8 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
             raise ValueError(f"{what} of {key!r} is missing")
     for key in values:
         if key not in known:
-            named = f"known are {joined(list(known))}" if known else "none is known"
-            raise ValueError(f"{what} is given for {key!r}, which does not occur; {named}")
+            named = f", or correct the name: known are {joined(list(dict.fromkeys(known)))}" if known else ""
+            raise ValueError(f"{what} is given for {key!r}, which does not occur; leave it out{named}")
 
 
 def check_ends(values: Mapping[str, object], terminal: Iterable[str], what: str, cure: str) -> None:

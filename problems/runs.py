@@ -222,7 +222,7 @@ class ValueRun(Reversible):
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
-        check_values(self.values, self.trajectory)
+        check_values(self.values, self.trajectory.states, self.terminal)
         check_one_open(self)
         return self
 
@@ -266,10 +266,8 @@ class ValueMoves(Givens):
     @model_validator(mode="after")
     def _valued(self) -> Self:
         check_moves(self.transitions, self.terminal)
-        left = [state for move in self.transitions for state in (move.state, move.next)]
-        known = tuple(dict.fromkeys((*left, *self.terminal)))
-        check_keys(self.values, known, "the value", needed=tuple(s for s in known if s not in self.terminal))
-        check_ends(self.values, self.terminal, "the value", CUT_OFF)
+        states = [state for move in self.transitions for state in (move.state, move.next)]
+        check_values(self.values, states, self.terminal)
         check_one_open(self)
         return self
 
@@ -436,15 +434,15 @@ RUN_OR_MOVES = Discriminator(
 )
 
 
-def check_values(values: Mapping[str, object], run: Trajectory) -> None:
-    """Demand a value for every state of a run that is not terminal.
+def check_values(values: Mapping[str, object], states: Iterable[str], terminal: tuple[str, ...]) -> None:
+    """Demand a value for every state that occurs and is not terminal; those of other states do not matter.
 
     Raises:
-        ValueError: one is missing, given for an unknown state, or not 0 for a terminal one.
+        ValueError: one is missing, or not 0 for a terminal state.
     """
-    known = tuple(dict.fromkeys((*run.states, *run.terminal)))
-    check_keys(values, known, "the value", needed=tuple(state for state in known if state not in run.terminal))
-    check_ends(values, run.terminal, "the value", CUT_OFF)
+    needed = tuple(dict.fromkeys(state for state in states if state not in terminal))
+    check_keys(values, tuple(values), "the value", needed)
+    check_ends(values, terminal, "the value", CUT_OFF)
 
 
 def draw_action_run(

@@ -148,7 +148,7 @@ EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0]
         ("feature-expectations-policy", STAYING | {"features": {}},
          "given.features: is empty; it needs at least 1 entry."),
         ("bayes-rule", RULE | {"prior": [1, 2]}, "given.prior: must be a table, in which every name has its value."),
-        ("bayes-rule", RULE | {"likelihood": {}}, "given for 'wet', which does not occur; none is known."),
+        ("bayes-rule", RULE | {"likelihood": {}}, "given for 'wet', which does not occur; leave it out."),
         ("bayes-rule", RULE | {"prior": {"$a$": 1, "b": 0}}, "given.prior: '$a$' is no name; a name begins with"),
         ("bayes-rule", RULE | {"prior": {"a,b": 1, "b": 0}}, "given.prior: 'a,b' is no name; a name begins with"),
         ("bayes-rule", RULE | {"story": "$"}, "given.story: may hold neither $ nor a backslash; take them out."),
