@@ -109,7 +109,7 @@ def test_cheating_earns_nothing(tmp_path: Path) -> None:
         "return/1/1": "is not in this exam; its problems may be called by their numbers, 1 to 2;",  # one that is known
         "easy.toml": "a file of one's own",
         "../easy.toml": "a file of one's own",
-        f"{str(a.exercises[0].id).split('@')[0]}@99": f"of another revision than the exam's; write {a.exercises[0].id} or 1 for that one;",
+        f"{str(a.exercises[0].id).split('@')[0]}@99": f"revision than the exam's; write {a.exercises[0].id} or 1",
         "3": "the exam has 2 problems",
     }
     rows = [("Eve", "", str(name), "a", "3/2") for name in attempts]
