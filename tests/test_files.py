@@ -138,8 +138,10 @@ def test_what_show_writes_is_read_back(tmp_path: Path, family: str) -> None:
         ('{"family": "return", "given": {}, "format": true}', "its format is True"),
         ('{"family": "return", "given": {}, "format": [1]}', "its format is a list"),
         ('{"family": "return", "given": {}, "gamma": 1}', "'gamma' is not a field of a problem file"),
-        ('{"given": {}}', "needs 'family'"),
-        ('{"family": "return"}', "needs 'family'"),
+        ('{"given": {}}', "'family' is missing; a problem needs 'family' and 'given'"),
+        ('{"family": "return"}', "'given' is missing; a problem needs 'family' and 'given'"),
+        ('{"family": 1, "given": {}}', "'family' must be the name of a family in quotes, such as 'td-zero'."),
+        ('{"famly": "return", "given": {}}', "'famly' is not a field of a problem file (did you mean family?);"),
         (
             '{"family": "return", "given": {"rewards": [1], "gamma": 2}}',
             "given.gamma: 2 is not between 0 and 1",
