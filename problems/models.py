@@ -151,9 +151,13 @@ class Model(Dynamics):
     @field_validator("terminal")
     @classmethod
     def _ends(cls, terminal: tuple[str, ...], info: ValidationInfo) -> tuple[str, ...]:
-        if terminal or "transitions" not in info.data:
+        if "transitions" not in info.data:
             return terminal
         rows: tuple[Transition, ...] = info.data["transitions"]
+        if terminal:
+            for state in sorted({*terminal} - {row.next for row in rows}):
+                note_of(info)(f"nothing leads to the terminal state {state!r}; correct its name, or take it out")
+            return terminal
         acting = {row.state for row in rows}
         found = tuple(dict.fromkeys(row.next for row in rows if row.next not in acting))
         for state in found:

@@ -260,10 +260,10 @@ def test_whoever_is_on_the_roster_and_handed_in_nothing_counts(tmp_path: Path) -
 @pytest.mark.parametrize(
     ("name", "content"),
     [
-        ("b.json", '{"student": "Ben", "answers": {"1": {"a": NaN}}}'),
+        ("b.json", '{"student": "Ben", "answers": {"1": {"a": 1/2}}}'),
         ("b.json", '{\n  "number": 2,\n  "answers": {"1": {"a": "1", "a": "2"}}\n}'),
         ("b.toml", 'student = "Ben"\n[answers.1]\na = "1\n'),
-        ("b.jsonl", '{"student": "Ben", "problem": "1", "part": "a", "answer": NaN}\n'),
+        ("b.jsonl", '{"student": "Ben", "problem": "1", "part": "a", "answer": 1/2}\n'),
     ],
 )
 def test_of_whoever_handed_in_what_cannot_be_read_it_is_not_said_that_they_handed_in_nothing(
@@ -279,6 +279,20 @@ def test_of_whoever_handed_in_what_cannot_be_read_it_is_not_said_that_they_hande
     assert "handed in, could not be read" in ben
     assert cem.endswith("handed in nothing")
     assert "1 handed in nothing" in page.written(report, "reason")
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("b.json", '{"student": "Ben", "answers": {"2": {"a": NaN, "b": "1"}}}'),
+        ("b.toml", 'student = "Ben"\n[answers.2]\na = inf\nb = 1\n'),
+    ],
+)
+def test_what_is_no_number_costs_itself_alone(tmp_path: Path, name: str, content: str) -> None:
+    path, _ = exam(tmp_path)
+    (tmp_path / name).write_text(content, encoding="utf-8")
+    (ben,) = verify([tmp_path / name], Settings(assignment=Assignment(path))).students
+    assert [part.judged.verdict for part in ben.parts] == ["missing", "unreadable", "wrong"]
 
 
 def test_where_a_file_tells_not_whose_it_is_nobody_is_said_to_have_handed_in_nothing(tmp_path: Path) -> None:
