@@ -399,3 +399,13 @@ def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
     assert shares == [Fraction(1, 2), 0, 0]
     with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
         plan(Blueprint(problems=(Asked(id="linearise-affine/1/6", partial=("all",)),), seed=7))
+
+
+def test_a_file_that_is_named_twice_is_read_once(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    answers = tmp_path / "a.csv"
+    answers.write_text(f"{HEAD}Ann,,1,a,{keys(made.versions[0])['1', 'a']}\n", encoding="utf-8")
+    for settings in (Settings(), Settings(assignment=Assignment(path))):
+        report = verify([answers, answers], settings)
+        assert [each.remark for each in report.students] == ([""] if settings.assignment else [])
+        assert len(report.refused) == (0 if settings.assignment else 1)  # problem 1 of which exam?
