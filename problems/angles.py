@@ -38,7 +38,7 @@ def read_angle(value: object) -> Angle:
     if isinstance(value, str) and (match := _PI.fullmatch(value.replace("−", "-").strip())):
         sign, times, below = match.groups()
         if below and int(below) == 0:
-            raise ValueError(f"{value!r} divides by zero")
+            raise ValueError(f"{value!r} divides by zero; write a number")
         factor = Fraction(int(times or 1), int(below or 1))
         return Angle(-factor if sign == "-" else factor, of_pi=bool(factor))
     try:

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from rldrill.problems.exact import told
+from rldrill.problems.exact import called
 from rldrill.problems.expressions import GREEK
 
 _LONGEST = 40
@@ -113,7 +113,7 @@ def says(fault: Mapping[str, Any]) -> str:
         return str(fault["msg"]).removeprefix("Value error, ").removesuffix(".")
     listed = f"[{_brief(given)}]" if isinstance(given, str | int) else "[1, 2]"
     about = {key: str(value).lower() if key == "class_name" else value for key, value in context.items()}
-    return _SAYS[kind].format(**about, given=told(given), listed=listed, length=len(str(given)))
+    return _SAYS[kind].format(**about, given=called(given), listed=listed, length=len(str(given)))
 
 
 def _counted(kind: str, count: int, told: Mapping[str, Any]) -> str:

@@ -93,7 +93,7 @@ class Root(str):
 Weight = Scalar | Logarithm | Root
 
 
-def told(value: object) -> str:
+def called(value: object) -> str:
     """A value of a file as sentences call it."""
     if isinstance(value, list | tuple):
         return "a list"
@@ -120,7 +120,7 @@ def read_fraction(value: object) -> Fraction:
     if isinstance(value, str | float):
         # A float's shortest decimal is what its writer typed; its binary value is not.
         return _fraction(value if isinstance(value, str) else repr(value))
-    raise ValueError(f"{told(value)} is not a number; write it as 3, 0.75 or 3/4")
+    raise ValueError(f"{called(value)} is not a number; write it as 3, 0.75 or 3/4")
 
 
 @lru_cache(maxsize=1024)

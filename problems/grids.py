@@ -93,7 +93,7 @@ class Grid(BaseModel):
         for what, names in (("rewards", self.rewards), ("ends", self.ends or ()), ("returns", self.returns)):
             for name in names:
                 if name not in named:
-                    raise ValueError(f"{what} names {name!r}, but no cell of the grid is called so")
+                    raise ValueError(f"{what} names {name!r}, but no cell of the grid is called so; correct the name")
         if self.rewards_on == "leaving" and not self.exits:
             raise ValueError("exit: with rewards on leaving, an end that is not left earns nothing; set exit = true")
         ends = {cell for cell, sign in cells.items() if sign in self._ends()}
@@ -152,7 +152,10 @@ class Grid(BaseModel):
     def _target(self, cells: Mapping[Cell, str], sign: str) -> Cell:
         targets = [cell for cell, name in cells.items() if name == self.returns[sign]]
         if len(targets) != 1:
-            raise ValueError(f"returns leads to {self.returns[sign]!r}, which must stand for one cell")
+            raise ValueError(
+                f"returns leads to {self.returns[sign]!r}, which must stand for one cell; "
+                "name a cell, or a sign that stands once"
+            )
         return targets[0]
 
 

@@ -311,7 +311,7 @@ def test_lines_are_kept(folder: Path) -> None:
 
 def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> None:
     path = write(folder, "a.json", '{"student": 123, "x.toml": [true, false]}')
-    assert [(entry.student, entry.text) for entry in read_answers(path).entries] == [("123", "[yes, no]")]
+    assert [(entry.student, entry.text) for entry in read_answers(path).entries] == [("123", "[true, false]")]
     path = write(folder, "b.json", '{"x.toml": {"a": {"cool": {"fast": 1, "slow": 0.50}, "warm": -1}, "b": []}}')
     assert [entry.text for entry in read_answers(path).entries] == [
         "(cool, fast): 1, (cool, slow): 0.50, warm: -1",

@@ -42,7 +42,9 @@ class Given(Reversible):
         per_step(self.gamma, len(self.trajectory.rewards))
         check_one_open(self)
         if self.time >= len(self.trajectory.rewards):
-            raise ValueError(f"time is {self.time}, but the run ends at {len(self.trajectory.rewards)}")
+            raise ValueError(
+                f"time is {self.time}, but the run ends at {len(self.trajectory.rewards)}; choose an earlier time"
+            )
         return self
 
     @property

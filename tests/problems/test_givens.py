@@ -41,7 +41,11 @@ def mdp(*transitions: list[object], terminal: tuple[str, ...] = ("end",)) -> dic
         ({"mdp": MDP, "gamma": 1}, "given.sweeps: is missing"),
         (changed(start={"a": 1}), "value of 'b' is missing"),
         (changed(start={"a": 1, "b": 2, "c": 3}), "given for 'c'"),
-        (mdp(["a", "go", "end", "1/2", 1]), "sum to 1/2, not to 1"),
+        (mdp(["a", "go", "end", "1/2", 1]), "sum to 1/2, not to 1; change one of them"),
+        (
+            mdp(["a", "go", "end", 0.33, 1], ["a", "go", "a", 0.66, 1]),
+            "sum to 99/100, not to 1; write what is rounded as a fraction, as '1/3'",
+        ),
         (mdp(["a", "go", "end", "3/2", 1]), "not between 0 and 1"),
         (mdp(["a", "go", "b", 1, 1]), "'b' is reached but has no action"),
         (mdp(["a", "go", "end", 1, 1], ["end", "go", "a", 1, 1]), "'end' is terminal"),
