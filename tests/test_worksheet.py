@@ -477,6 +477,12 @@ def test_a_json_file_that_is_no_manifest_is_not_overwritten(tmp_path: Path) -> N
     assert [path.name for path in tmp_path.iterdir()] == ["x.json"]
 
 
+def test_a_problem_that_is_named_twice_is_printed_once(tmp_path: Path) -> None:
+    run("td-zero/1/62590", "td-zero/1/62590", "-o", tmp_path / "x.json")
+    (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
+    assert len(version["problems"]) == 1
+
+
 @pytest.mark.parametrize(("wanted", "said"), [(24, False), (300, True)])  # eight short problems take 300 nowhere
 def test_minutes_that_are_missed_are_told(tmp_path: Path, wanted: int, said: bool) -> None:
     _, told = run("bellman", "--level", 1, "-n", 8, "-m", wanted, "--seed", 1, "-o", tmp_path / "no" / "x.html")

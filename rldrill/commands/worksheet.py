@@ -119,7 +119,7 @@ def command(
             return
         written = _reprinted(source, output, changes, only_keys=key, force=force)
     else:
-        blueprint, stem, planned = _blueprint(list(names or ()), count, minutes, level)
+        blueprint, stem, planned = _blueprint(list(dict.fromkeys(names or ())), count, minutes, level)
         blueprint = blueprint.but(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
         )
