@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
-from rldrill.problems.exact import read_fraction
+from rldrill.problems.exact import called, read_fraction
 from rldrill.problems.fractions import Fraction
 
 _PI = re.compile(r"([+-]?)\s*(\d{0,6})\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d{1,6}))?")
@@ -44,7 +44,7 @@ def read_angle(value: object) -> Angle:
     try:
         return Angle(read_fraction(value))
     except ValueError:
-        raise ValueError(f"{str(value)[:40]!r} is not a number; write it as 3/4, 0.75 or pi/6") from None
+        raise ValueError(f"{called(value)} is not a number; write it as 3/4, 0.75 or pi/6") from None
 
 
 def degrees(angle: Angle) -> float:

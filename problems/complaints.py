@@ -32,6 +32,7 @@ _SAYS = {
     "list_type": _LIST,
     "named_tuple_type": "must be a list, with the entries of one {class_name}",
     "string_type": "must be a text; put it in quotes",
+    "string_too_short": "is empty; write something",
     "string_too_long": "has {length} characters, {max_length} are the most; shorten it",
     "int_type": _WHOLE,
     "int_parsing": _WHOLE,
@@ -111,7 +112,7 @@ def says(fault: Mapping[str, Any]) -> str:
         return f"may hold {signs}; take them out"
     if kind not in _SAYS:
         return str(fault["msg"]).removeprefix("Value error, ").removesuffix(".")
-    listed = f"[{_brief(given)}]" if isinstance(given, str | int) else "[1, 2]"
+    listed = f"[{called(given)}]" if isinstance(given, str | int) else "[1, 2]"
     about = {key: str(value).lower() if key == "class_name" else value for key, value in context.items()}
     return _SAYS[kind].format(**about, given=called(given), listed=listed, length=len(str(given)))
 

@@ -5,7 +5,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from rldrill.problems.complaints import nearest
+from rldrill.problems.complaints import nearest, says
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.readings import Note
@@ -181,5 +181,5 @@ def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
         where = ".".join(map(str, first["loc"]))
         if first["type"] == "extra_forbidden":
             raise ValueError(f"{where} is not a field of a grid{nearest(where, tuple(Grid.model_fields))}") from None
-        raise ValueError(f"{where}: {str(first['msg']).removeprefix('Value error, ')}") from None
+        raise ValueError(f"{where}: {says(first)}") from None
     return {"transitions": transitions, "terminal": terminal, "story": grid.told()}
