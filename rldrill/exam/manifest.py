@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Self, TypeGuard
+from typing import Annotated, Any, TypeGuard
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill import __version__
 from rldrill.exam.blueprint import Notation
@@ -120,13 +120,11 @@ class _Problem(_Table):
     parts: Annotated[tuple[_Part, ...], Field(min_length=1)]
     problem: dict[str, Any]
 
-    @model_validator(mode="after")
-    def _of_one_family(self) -> Self:
-        named = split_id(self.id)[0] if self.id is not None and looks_like_id(self.id) else self.family
-        families = {name for name in (named, self.family, self.problem.get("family")) if isinstance(name, str)}
-        if len(families) > 1:
-            raise ValueError(f"its ID, family and problem must be of one family, and are of {joined(sorted(families))}")
-        return self
+    @property
+    def families(self) -> set[str]:
+        """The families that it is of, by its ID, its own word and the problem itself: one, unless they differ."""
+        named = split_id(self.id)[0] if self.id is not None and looks_like_id(self.id) else None
+        return {name for name in (named, self.family, self.problem.get("family")) if isinstance(name, str)}
 
 
 def _short(code: str) -> str:
@@ -318,6 +316,9 @@ def _exercise(entry: _Problem, where: str) -> Exercise:
         exercise = read(entry.problem, where)
     except UsageError as error:
         raise FileError(f"{where}: {error}") from None
+    if len(entry.families) > 1:
+        of = joined(sorted(entry.families))
+        raise FileError(f"{where}: its ID, family and problem are of {of}, not of one; take it from a backup.")
     worth = {part.part: part.points for part in entry.parts}
     asked = [part.label for part in exercise.problem.parts]
     if list(worth) != asked:

@@ -101,11 +101,11 @@ def test_format_1_is_read(tmp_path: Path) -> None:
         (lambda data: data.update(title=None), "damaged at title (must be a text; put it in quotes); take it from"),
         (
             lambda data: data["versions"][0]["problems"][1].update(id="kalman-filter/1/7@4"),
-            "damaged at versions.1.problems.2 (its ID, family and problem must be of one family, and are of ",
+            "version A, problem 2: its ID, family and problem are of ",
         ),
         (
             lambda data: data["versions"][0]["problems"][1].update(family="kalman-filter"),
-            "damaged at versions.1.problems.2 (its ID, family and problem must be of one family, and are of ",
+            "version A, problem 2: its ID, family and problem are of ",
         ),
         (
             lambda data: data["versions"][1]["problems"][0]["problem"].update(family=True),
