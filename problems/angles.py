@@ -7,7 +7,7 @@ from typing import Annotated
 from msgspec import Struct
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
-from rldrill.problems.exact import read_fraction
+from rldrill.problems.exact import called, read_fraction
 from rldrill.problems.fractions import Fraction
 
 _PI = re.compile(r"([+-]?)\s*(\d{0,6})\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d{1,6}))?")
@@ -37,13 +37,13 @@ def read_angle(value: object) -> Angle:
     if isinstance(value, str) and (match := _PI.fullmatch(value.replace("−", "-").strip())):
         sign, times, below = match.groups()
         if below and int(below) == 0:
-            raise ValueError(f"{value!r} divides by zero")
+            raise ValueError(f"{value!r} divides by zero; write a number")
         factor = Fraction(int(times or 1), int(below or 1))
         return Angle(-factor if sign == "-" else factor, of_pi=bool(factor))
     try:
         return Angle(read_fraction(value))
     except ValueError:
-        raise ValueError(f"{str(value)[:40]!r} is not a number; write it as 3/4, 0.75 or pi/6") from None
+        raise ValueError(f"{called(value)} is not a number; write it as 3/4, 0.75 or pi/6") from None
 
 
 def degrees(angle: Angle) -> float:

@@ -32,10 +32,12 @@ class PlanarArm(Givens):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         if len(self.angles) != len(self.lengths):
-            raise ValueError(f"angles holds {len(self.angles)}, but there are {len(self.lengths)} links")
+            raise ValueError(
+                f"angles holds {len(self.angles)}, but there are {len(self.lengths)} links; give one for each"
+            )
         known = [length for length in self.lengths if isinstance(length, Fraction)]
         if known and min(known) <= 0:
-            raise ValueError(f"lengths: {min(known)} is not above 0")
+            raise ValueError(f"lengths: {min(known)} is not above 0; give one that is")
         return self
 
     @property

@@ -58,7 +58,7 @@ class AskingBack(ActionUpdates):
     def _follows(self) -> Self:
         if self.outcome and self.outcome[:2] not in self.updated:
             pair = f"({self.outcome.state}, {self.outcome.action})"
-            raise ValueError(f"outcome: {pair} is not updated, so nothing follows from it")
+            raise ValueError(f"outcome: {pair} is not updated, so nothing follows from it; name one that is")
         if self.outcome and len(super().parameters()) != 1:
             raise ValueError("outcome: leave one number open, such as alpha, which is asked for then")
         return self

@@ -89,7 +89,9 @@ def check_likelihood(likelihood: Likelihood, known: tuple[str, ...]) -> None:
     for hypothesis in known:
         every = [chances[hypothesis] for chances in likelihood.values()]
         if (total := sum((chance for chance in every if isinstance(chance, Fraction)), Fraction(0))) > 1:
-            raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {told(total)}, more than 1")
+            raise ValueError(
+                f"likelihood: the readings under {hypothesis!r} sum to {told(total)}, more than 1; make them smaller"
+            )
 
 
 def check_possible(believed: Iterable[str], likelihood: Mapping[str, Scalar], what: str) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from rldrill.problems.exact import called
 from rldrill.problems.expressions import GREEK
 
 _LONGEST = 40
@@ -31,6 +32,7 @@ _SAYS = {
     "list_type": _LIST,
     "named_tuple_type": "must be a list, with the entries of one {class_name}",
     "string_type": "must be a text; put it in quotes",
+    "string_too_short": "is empty; write something",
     "string_too_long": "has {length} characters, {max_length} are the most; shorten it",
     "int_type": _WHOLE,
     "int_parsing": _WHOLE,
@@ -100,19 +102,19 @@ def _known(whole: Schema, schema: Schema, place: Sequence[int | str]) -> list[st
 
 def says(fault: Mapping[str, Any]) -> str:
     """What is said of one of the faults that pydantic lists: what is wrong, and what to do."""
-    kind, given, told = fault["type"], fault["input"], fault.get("ctx", {})
+    kind, given, context = fault["type"], fault["input"], fault.get("ctx", {})
     if kind in ("too_short", "too_long") and not isinstance(given, str):
-        return _counted(kind, len(given), told)
+        return _counted(kind, len(given), context)
     if kind in ("too_short", "too_long"):
         kind = kind.replace("too", "string_too")
     if kind == "string_pattern_mismatch":
-        signs = "neither $ nor a backslash" if "$" in told["pattern"].removesuffix("$") else "no backslash"
+        signs = "neither $ nor a backslash" if "$" in context["pattern"].removesuffix("$") else "no backslash"
         return f"may hold {signs}; take them out"
     if kind not in _SAYS:
         return str(fault["msg"]).removeprefix("Value error, ").removesuffix(".")
-    listed = f"[{_brief(given)}]" if isinstance(given, str | int) else "[1, 2]"
-    about = {key: str(value).lower() if key == "class_name" else value for key, value in told.items()}
-    return _SAYS[kind].format(**about, given=_shown(given), listed=listed, length=len(str(given)))
+    listed = f"[{called(given)}]" if isinstance(given, str | int) else "[1, 2]"
+    about = {key: str(value).lower() if key == "class_name" else value for key, value in context.items()}
+    return _SAYS[kind].format(**about, given=called(given), listed=listed, length=len(str(given)))
 
 
 def _counted(kind: str, count: int, told: Mapping[str, Any]) -> str:
@@ -126,19 +128,6 @@ def _counted(kind: str, count: int, told: Mapping[str, Any]) -> str:
 
 def _entries(count: int) -> str:
     return "entry" if count == 1 else "entries"
-
-
-def _shown(given: object) -> str:
-    if isinstance(given, list | tuple):
-        return "a list"
-    if isinstance(given, dict):
-        return "a table"
-    if given is None:
-        return "nothing"
-    if isinstance(given, bool):
-        return str(given).lower()
-    text = repr(given) if isinstance(given, str) else str(given)
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
 
 
 def _brief(step: object) -> str:

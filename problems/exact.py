@@ -20,7 +20,7 @@ from rldrill.problems.spelling import Unreadable
 T = TypeVar("T")
 
 _ZERO = Fraction(0)
-_LONGEST = 200
+_LONGEST, _TOLD = 200, 40
 _BITS = 4000  # of a power
 
 
@@ -93,6 +93,20 @@ class Root(str):
 Weight = Scalar | Logarithm | Root
 
 
+def called(value: object) -> str:
+    """A value of a file as sentences call it."""
+    if isinstance(value, list | tuple):
+        return "a list"
+    if isinstance(value, dict):
+        return "a table"
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = repr(value) if isinstance(value, str) else str(value)
+    return text if len(text) <= _TOLD else f"{text[: _TOLD - 1]}…"
+
+
 def read_fraction(value: object) -> Fraction:
     """Read an exact number.
 
@@ -106,7 +120,7 @@ def read_fraction(value: object) -> Fraction:
     if isinstance(value, str | float):
         # A float's shortest decimal is what its writer typed; its binary value is not.
         return _fraction(value if isinstance(value, str) else repr(value))
-    raise ValueError(f"{value!r} is not a number")
+    raise ValueError(f"{called(value)} is not a number; write it as 3, 0.75 or 3/4")
 
 
 @lru_cache(maxsize=1024)
@@ -129,7 +143,7 @@ def _worth(tree: Node, text: str) -> Fraction:
     try:
         number = worked_out(tree, Fraction, refuse, refuse, _power)
     except ZeroDivisionError:
-        raise ValueError(f"{text[:40]!r} divides by zero") from None
+        raise ValueError(f"{text[:40]!r} divides by zero; write a number") from None
     if max(abs(number.numerator), number.denominator) > 10**DIGITS:
         raise ValueError(f"{text[:40]!r} has more than {DIGITS} digits; write a shorter number")
     return number
@@ -137,7 +151,7 @@ def _worth(tree: Node, text: str) -> Fraction:
 
 def _power(base: Fraction, exponent: int | None) -> Fraction:
     if exponent is None or (base.numerator.bit_length() + base.denominator.bit_length()) * abs(exponent) > _BITS:
-        raise ValueError("an exponent in a number is a whole number, and not a large one")
+        raise ValueError("an exponent in a number is a whole number, and not a large one; write the number out")
     return base**exponent
 
 
@@ -174,7 +188,7 @@ def read_width(value: object) -> Scalar | Root:
         return read_scalar(value)
     square = _square(_parsed(value), value)
     if square < 0:
-        raise ValueError(f"{value[:40]!r} is the root of a negative number")
+        raise ValueError(f"{value[:40]!r} is the root of a negative number; write another")
     top, below = isqrt(square.numerator), isqrt(square.denominator)
     return Fraction(top, below) if Fraction(top, below) ** 2 == square else Root(f"sqrt({square})")
 
@@ -227,13 +241,13 @@ def shown(value: Weight | int) -> str:
 
 def _probability(value: Scalar) -> Scalar:
     if isinstance(value, Fraction) and not 0 <= value <= 1:
-        raise ValueError(f"{value} is not between 0 and 1")
+        raise ValueError(f"{value} is not between 0 and 1; give a number that is")
     return value
 
 
 def _rate(value: Scalar) -> Scalar:
     if isinstance(value, Fraction) and not 0 < value <= 1:
-        raise ValueError(f"{value} is not above 0 and at most 1")
+        raise ValueError(f"{value} is not above 0 and at most 1; give a number that is")
     return value
 
 

@@ -29,7 +29,7 @@ def check_features(features: Mapping[str, Sequence[object]], size: int) -> None:
     """
     for name, row in features.items():
         if len(row) != size:
-            raise ValueError(f"features: {name!r} has {len(row)} features, but theta {size}")
+            raise ValueError(f"features: {name!r} has {len(row)} features, but theta {size}; give as many")
 
 
 def check_action_features(features: ActionFeatures, size: int) -> None:
@@ -40,7 +40,7 @@ def check_action_features(features: ActionFeatures, size: int) -> None:
     """
     for state, row in features.items():
         if not row:
-            raise ValueError(f"features: {state!r} has no action")
+            raise ValueError(f"features: {state!r} has no action; add one")
         check_features(row, size)
 
 

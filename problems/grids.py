@@ -5,7 +5,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from rldrill.problems.complaints import nearest
+from rldrill.problems.complaints import nearest, says
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.readings import Note
@@ -93,7 +93,7 @@ class Grid(BaseModel):
         for what, names in (("rewards", self.rewards), ("ends", self.ends or ()), ("returns", self.returns)):
             for name in names:
                 if name not in named:
-                    raise ValueError(f"{what} names {name!r}, but no cell of the grid is called so")
+                    raise ValueError(f"{what} names {name!r}, but no cell of the grid is called so; correct the name")
         if self.rewards_on == "leaving" and not self.exits:
             raise ValueError("exit: with rewards on leaving, an end that is not left earns nothing; set exit = true")
         ends = {cell for cell, sign in cells.items() if sign in self._ends()}
@@ -152,7 +152,10 @@ class Grid(BaseModel):
     def _target(self, cells: Mapping[Cell, str], sign: str) -> Cell:
         targets = [cell for cell, name in cells.items() if name == self.returns[sign]]
         if len(targets) != 1:
-            raise ValueError(f"returns leads to {self.returns[sign]!r}, which must stand for one cell")
+            raise ValueError(
+                f"returns leads to {self.returns[sign]!r}, which must stand for one cell; "
+                "name a cell, or a sign that stands once"
+            )
         return targets[0]
 
 
@@ -178,5 +181,5 @@ def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
         where = ".".join(map(str, first["loc"]))
         if first["type"] == "extra_forbidden":
             raise ValueError(f"{where} is not a field of a grid{nearest(where, tuple(Grid.model_fields))}") from None
-        raise ValueError(f"{where}: {str(first['msg']).removeprefix('Value error, ')}") from None
+        raise ValueError(f"{where}: {says(first)}") from None
     return {"transitions": transitions, "terminal": terminal, "story": grid.told()}

@@ -29,6 +29,12 @@ REWARD = "$r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$"
 _LONG = 12
 _EFFORT = 100
 
+
+def one_or(count: int) -> str:
+    """How matrices are given, to whoever gave as many as there are no times."""
+    return f"give one, as a list of rows such as [[1, 2], [3, 4]], or {count} for the times from 0"
+
+
 AnyRows = TypeVar("AnyRows", bound=Rows)
 
 Convention = Literal["value", "cost-to-go", "xuKP"]
@@ -111,17 +117,21 @@ class LinearQuadratic(Discounted):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        n, m = len(self.start), len(self.B[0][0])
+        n, m = len(self.A[0]), len(self.B[0][0])
         where = f"with {n} state{'s' * (n != 1)} and {m} action{'s' * (m != 1)} "
         if self.horizon > (most := max(_LONG, _EFFORT // n**2)):
             raise ValueError(f"horizon is {self.horizon}; {where.rstrip()}, {most} is the most")
-        for name, series, rows, columns, count in (
+        shapes = (
             ("A", self.A, n, n, self.horizon), ("B", self.B, n, m, self.horizon),
             ("Q", self.Q, n, n, self.horizon + 1), ("R", self.R, m, m, self.horizon + 1),
             ("N", self.N or (), n, m, self.horizon), ("Q_T", (self.Q_T,) if self.Q_T else (), n, n, 1),
-        ):  # fmt: skip
+        )  # fmt: skip
+        for name, series, _, _, count in shapes:
             if series and len(series) not in (1, count):
-                raise ValueError(f"{name} holds {len(series)} matrices; give one, or {count} for the times from 0")
+                raise ValueError(f"{name} holds {len(series)} matrices; {one_or(count)}")
+        if len(self.start) != n:
+            raise ValueError(f"start: A has {n} row{'s' * (n != 1)}, so give as many entries, not {len(self.start)}")
+        for name, series, rows, columns, _ in shapes:
             for matrix in series:
                 check_shape(name, matrix, rows, columns, where)
                 if name in ("Q", "R", "Q_T"):

@@ -1,6 +1,7 @@
 """Matrices as problems give them: lists of rows, a plain number where they are 1×1."""
 
 from collections.abc import Sequence
+from itertools import combinations
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
@@ -85,8 +86,10 @@ def check_symmetric(name: str, matrix: Rows) -> None:
     Raises:
         ValueError: it is not.
     """
-    if any(matrix[i][j] != matrix[j][i] for i in range(len(matrix)) for j in range(i)):
-        raise ValueError(f"{name} must be symmetric")
+    for i, j in combinations(range(len(matrix)), 2):
+        if matrix[i][j] != matrix[j][i]:
+            places = f"row {i + 1}, column {j + 1}, and row {j + 1}, column {i + 1}"
+            raise ValueError(f"{name} must be symmetric; give {places}, the same entry")
 
 
 def check_weights(name: str, matrix: Rows, *, positive: bool) -> None:
@@ -100,7 +103,7 @@ def check_weights(name: str, matrix: Rows, *, positive: bool) -> None:
     if any(len(line) != len(matrix) for line in rows):
         return
     if not _definite(rows, positive=positive):
-        raise ValueError(f"{name} must be positive {'definite' if positive else 'semidefinite'}")
+        raise ValueError(f"{name} must be positive {'' if positive else 'semi'}definite; make its diagonal larger")
 
 
 def is_positive(matrix: Sequence[Sequence[Fraction]]) -> bool:

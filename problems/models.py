@@ -151,9 +151,13 @@ class Model(Dynamics):
     @field_validator("terminal")
     @classmethod
     def _ends(cls, terminal: tuple[str, ...], info: ValidationInfo) -> tuple[str, ...]:
-        if terminal or "transitions" not in info.data:
+        if "transitions" not in info.data:
             return terminal
         rows: tuple[Transition, ...] = info.data["transitions"]
+        if terminal:
+            for state in sorted({*terminal} - {row.next for row in rows}):
+                note_of(info)(f"nothing leads to the terminal state {state!r}; correct its name, or take it out")
+            return terminal
         acting = {row.state for row in rows}
         found = tuple(dict.fromkeys(row.next for row in rows if row.next not in acting))
         for state in found:
@@ -166,7 +170,10 @@ class Model(Dynamics):
             raise ValueError(f"there are {len(self.states)} states; at most {MOST_STATES} can be solved exactly")
         for state in self.states:
             if state in self.terminal:
-                raise ValueError(f"{state!r} is terminal, so no action can be taken there")
+                raise ValueError(
+                    f"{state!r} is terminal, so no action can be taken there; "
+                    "take its actions out, or take it out of terminal"
+                )
         known = {*self.states, *self.terminal}
         for transition in self.transitions:
             if transition.next not in known:
@@ -212,11 +219,11 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
     """Demand that a mapping names the needed keys, and none that is not known."""
     for key in needed:
         if key not in values:
-            raise ValueError(f"{what} of {key!r} is missing")
+            raise ValueError(f"{what} of {key!r} is missing; add it")
     for key in values:
         if key not in known:
-            named = f"known are {joined(list(known))}" if known else "none is known"
-            raise ValueError(f"{what} is given for {key!r}, which does not occur; {named}")
+            named = f", or correct the name: known are {joined(list(dict.fromkeys(known)))}" if known else ""
+            raise ValueError(f"{what} is given for {key!r}, which does not occur; leave it out{named}")
 
 
 def check_ends(values: Mapping[str, object], terminal: Iterable[str], what: str, cure: str) -> None:
@@ -239,6 +246,10 @@ def check_state_values(values: Mapping[str, object], model: Model) -> None:
     """
     check_keys(values, (*model.states, *model.terminal), "the value", needed=model.states)
     check_ends(values, model.terminal, "the value", "make it the reward for getting there")
+
+
+#: So near to 1 probabilities sum where they are rounded.
+_NEAR = Fraction(1, 40)
 
 
 def sums_to_one(probabilities: Iterable[Scalar]) -> bool:
@@ -264,7 +275,8 @@ def check_sum(probabilities: Iterable[Scalar], what: str) -> None:
     if not sums_to_one(chances):
         total = sum((chance for chance in chances if isinstance(chance, Fraction)), Fraction(0))
         left_open = " and what is left open" if any(isinstance(chance, Parameter) for chance in chances) else ""
-        raise ValueError(f"{what} sum to {told(total)}{left_open}, not to 1")
+        cure = "write what is rounded as a fraction, as '1/3'" if abs(1 - total) < _NEAR else "change one of them"
+        raise ValueError(f"{what} sum to {told(total)}{left_open}, not to 1; {cure}")
 
 
 Policy = Mapping[str, Mapping[str, OpenProbability]]

@@ -32,7 +32,7 @@ Letter = Annotated[
 
 def _positive(step: Fraction) -> Fraction:
     if step <= 0:
-        raise ValueError(f"{step} is not above 0")
+        raise ValueError(f"{step} is not above 0; give one that is")
     return step
 
 
@@ -92,17 +92,17 @@ class System(Givens):
         groups = (self.state, self.action, self.constants, self.where)
         names = [name for group in groups for name in group]
         if doubled := [name for name in names if names.count(name) > 1]:
-            raise ValueError(f"the letter {doubled[0]!r} stands for two things")
+            raise ValueError(f"the letter {doubled[0]!r} stands for two things; rename one")
         known = {*self.state, *self.action, *self.constants}
         for name, text in (*self.where.items(), *self.dynamics.items()):
             if unknown := [used for used in letters(text) if used not in known]:
-                raise ValueError(f"the expression of {name!r} holds {unknown[0]!r}, which has no value")
+                raise ValueError(f"the expression of {name!r} holds {unknown[0]!r}, which has no value; give it one")
             if name in self.where:
                 known.add(name)
         if self.held and self.step is None:
             raise ValueError("step is missing: for how long the zero-order hold keeps the action; add it")
         if self.story.count("$") % 2:
-            raise ValueError("story: a $ is missing")
+            raise ValueError("story: a $ is missing; add it")
         if self.picture and (missing := {*_SEEN[self.picture]} - {*self.state, *self.constants}):
             raise ValueError(f"picture: there is no {min(missing)}, which the picture of {self.picture!r} shows")
         return self

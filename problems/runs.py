@@ -55,13 +55,17 @@ class Trajectory(Givens):
     def _consistent(self) -> "Trajectory":
         if len(self.rewards) != len(self.states) - 1:
             raise ValueError(
-                f"{len(self.states)} states need {len(self.states) - 1} rewards between them, not {len(self.rewards)}"
+                f"{len(self.states)} states need {len(self.states) - 1} rewards between them, not {len(self.rewards)}; "
+                "add or take out some"
             )
         if self.actions and len(self.actions) not in (len(self.rewards), len(self.states)):
-            raise ValueError(f"{len(self.rewards)} rewards need as many actions, not {len(self.actions)}")
+            raise ValueError(f"{len(self.rewards)} rewards need as many actions, not {len(self.actions)}; give as many")
         for state, after in pairwise(self.states):
             if state in self.terminal:
-                raise ValueError(f"{state!r} is terminal, so the run cannot go on to {after!r}")
+                raise ValueError(
+                    f"{state!r} is terminal, so the run cannot go on to {after!r}; "
+                    "take that out, or take the state out of terminal"
+                )
         return self
 
     @property
@@ -222,7 +226,7 @@ class ValueRun(Reversible):
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
-        check_values(self.values, self.trajectory)
+        check_values(self.values, self.trajectory.states, self.terminal)
         check_one_open(self)
         return self
 
@@ -266,10 +270,8 @@ class ValueMoves(Givens):
     @model_validator(mode="after")
     def _valued(self) -> Self:
         check_moves(self.transitions, self.terminal)
-        left = [state for move in self.transitions for state in (move.state, move.next)]
-        known = tuple(dict.fromkeys((*left, *self.terminal)))
-        check_keys(self.values, known, "the value", needed=tuple(s for s in known if s not in self.terminal))
-        check_ends(self.values, self.terminal, "the value", CUT_OFF)
+        states = [state for move in self.transitions for state in (move.state, move.next)]
+        check_values(self.values, states, self.terminal)
         check_one_open(self)
         return self
 
@@ -318,15 +320,15 @@ class ActionRun(ActionUpdates):
     def _valued(self) -> Self:
         run = self.trajectory
         if len(run.actions) < len(run.rewards):
-            raise ValueError("trajectory: the action taken in every state that is left is needed")
+            raise ValueError("trajectory: the action taken in every state that is left is needed; add it")
         for state in run.states:
             if state not in run.terminal and not self.values.get(state):
-                raise ValueError(f"values: the action values of {state!r} are missing")
+                raise ValueError(f"values: the action values of {state!r} are missing; add them")
         for state, action in zip(run.states, run.actions, strict=False):
             if state in run.terminal:
-                raise ValueError(f"trajectory: the run ends in {state!r}, so no action is taken there")
+                raise ValueError(f"trajectory: the run ends in {state!r}, so no action is taken there; take it out")
             if action not in self.values[state]:
-                raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
+                raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there; add it")
         check_ends(self.values, run.terminal, "values: the action value", CUT_OFF)
         return self
 
@@ -334,7 +336,7 @@ class ActionRun(ActionUpdates):
         """Raise a ``ValueError`` unless the method, which needs the last action, is given it."""
         if not self.last_action_known:
             last = self.trajectory.states[-1]
-            raise ValueError(f"trajectory: {method} needs the action taken in {last!r}, the last state, too")
+            raise ValueError(f"trajectory: {method} needs the action taken in {last!r}, the last state, too; add it")
 
     @cached_property
     def moves(self) -> tuple[ActionMove, ...]:
@@ -379,12 +381,14 @@ class ActionMoves(ActionUpdates):
         for number, move in enumerate(self.transitions, 1):
             taken = [(move.state, move.action), *([(move.next, move.following)] if move.following else [])]
             if move.following and move.next in self.terminal:
-                raise ValueError(f"transitions[{number}]: {move.next!r} is terminal, so no action is taken there")
+                raise ValueError(
+                    f"transitions[{number}]: {move.next!r} is terminal, so no action is taken there; take it out"
+                )
             if move.next not in self.terminal and not self.values.get(move.next):
-                raise ValueError(f"values: the action values of {move.next!r} are missing")
+                raise ValueError(f"values: the action values of {move.next!r} are missing; add them")
             for state, action in taken:
                 if action not in self.values.get(state, {}):
-                    raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
+                    raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there; add it")
         check_ends(self.values, self.terminal, "values: the action value", CUT_OFF)
         return self
 
@@ -415,7 +419,10 @@ def check_moves(moves: Sequence[StateMove | ActionMove], terminal: tuple[str, ..
     """
     for number, move in enumerate(moves, 1):
         if move.state in terminal:
-            raise ValueError(f"transitions[{number}]: {move.state!r} is terminal, so nothing leads on from there")
+            raise ValueError(
+                f"transitions[{number}]: {move.state!r} is terminal, so nothing leads on from there; "
+                "take that out, or take the state out of terminal"
+            )
 
 
 def which_kind(given: object) -> str | None:
@@ -436,15 +443,15 @@ RUN_OR_MOVES = Discriminator(
 )
 
 
-def check_values(values: Mapping[str, object], run: Trajectory) -> None:
-    """Demand a value for every state of a run that is not terminal.
+def check_values(values: Mapping[str, object], states: Iterable[str], terminal: tuple[str, ...]) -> None:
+    """Demand a value for every state that occurs and is not terminal; those of other states do not matter.
 
     Raises:
-        ValueError: one is missing, given for an unknown state, or not 0 for a terminal one.
+        ValueError: one is missing, or not 0 for a terminal state.
     """
-    known = tuple(dict.fromkeys((*run.states, *run.terminal)))
-    check_keys(values, known, "the value", needed=tuple(state for state in known if state not in run.terminal))
-    check_ends(values, run.terminal, "the value", CUT_OFF)
+    needed = tuple(dict.fromkeys(state for state in states if state not in terminal))
+    check_keys(values, tuple(values), "the value", needed)
+    check_ends(values, terminal, "the value", CUT_OFF)
 
 
 def draw_action_run(

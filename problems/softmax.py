@@ -40,12 +40,14 @@ class SoftmaxRun(Givens):
         run = self.trajectory
         check_action_features(self.features, len(self.theta))
         if len(run.actions) != len(run.rewards):
-            raise ValueError(f"trajectory: {len(run.rewards)} steps need as many actions, not {len(run.actions)}")
+            raise ValueError(
+                f"trajectory: {len(run.rewards)} steps need as many actions, not {len(run.actions)}; give as many"
+            )
         left = tuple(dict.fromkeys(run.states[:-1]))
         check_keys(self.features, left, "the row of features", needed=left)
         for state, action in zip(run.states, run.actions, strict=False):
             if action not in self.features[state]:
-                raise ValueError(f"features: {action!r} is taken in {state!r} but has no features there")
+                raise ValueError(f"features: {action!r} is taken in {state!r} but has no features there; add them")
         return self
 
 
@@ -55,7 +57,10 @@ class Episode(SoftmaxRun):
     @model_validator(mode="after")
     def _ends(self) -> Self:
         if (last := self.trajectory.states[-1]) not in self.trajectory.terminal:
-            raise ValueError(f"trajectory: the episode must end in a terminal state, but {last!r} is not one")
+            raise ValueError(
+                f"trajectory: the episode must end in a terminal state, but {last!r} is not one; "
+                "add it to terminal, or go on to the end"
+            )
         return self
 
 

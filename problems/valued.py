@@ -223,7 +223,10 @@ def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: M
     for state, row in policy.items():
         total = sum(Fraction(chance) * worth(model, (state, action), values, gamma) for action, chance in row.items())
         if total != values[state]:
-            raise ValueError(f"values: {state!r} is given as {values[state]}, but one step of the policy gives {total}")
+            raise ValueError(
+                f"values: {state!r} is given as {values[state]}, but one step of the policy gives {total}; "
+                "correct one of them"
+            )
     for state in chain.from_iterable(never_left(model, policy) if gamma == 1 else ()):
         nothing = dict.fromkeys(values, Fraction(0))
         pay = sum(Fraction(p) * worth(model, (state, action), nothing, gamma) for action, p in policy[state].items())
@@ -248,7 +251,9 @@ def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma:
     for state, actions in model.actions.items():
         best = max(worth(model, (state, action), values, gamma) for action in actions)
         if abs(best - values[state]) > _ROUNDING * max(Fraction(1), abs(best)):
-            raise ValueError(f"values: {state!r} is given as {values[state]}, but its best action is worth {best}")
+            raise ValueError(
+                f"values: {state!r} is given as {values[state]}, but its best action is worth {best}; correct it"
+            )
 
 
 def open_reward(model: Model) -> Transition:

@@ -262,6 +262,8 @@ class Diagnosing:
         """
         if verdict.outcome is Outcome.UNREADABLE:
             return Diagnosis("unreadable", verdict.says)
+        if verdict.missing:
+            return Diagnosis("unexplained", verdict.says)
         if verdict.accepted:
             return Diagnosis("right", verdict.says, confidence=1.0)
         if verdict.told:

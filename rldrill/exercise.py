@@ -431,10 +431,14 @@ def read(data: object, where: str = "the problem") -> Exercise:
     Raises:
         FileError: the data does not fit, or the problem has no answer.
     """
-    if not isinstance(data, dict) or not isinstance(data.get("family"), str) or "given" not in data:
+    missing = [name for name in ("family", "given") if not isinstance(data, dict) or name not in data]
+    if missing or not isinstance(data, dict):
         raise FileError(
-            f"{where}: a problem needs 'family' and 'given'; 'rldrill show ID --json' and Exercise.data() write both."
+            f"{where}: {missing[0]!r} is missing; a problem needs 'family' and 'given', as 'rldrill show ID --json' "
+            "and Exercise.data() write them."
         )
+    if not isinstance(data["family"], str):
+        raise FileError(f"{where}: 'family' must be the name of a family in quotes, such as 'td-zero'.")
     family = family_of(data["family"])
     notes: list[str] = []
     try:

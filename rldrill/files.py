@@ -7,7 +7,7 @@ import tomllib
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from rldrill.problems.errors import FileError
 from rldrill.problems.expressions import GREEK
@@ -31,7 +31,6 @@ _QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")
 _YAML = re.compile(r"\s*(?:- )?[\w-]+:(?:\s|$)")
 _SPELLED = {glyph: name for name, glyph in GREEK.items()}
 _KEY_SHOWN = 40
-_NO_NUMBER = re.compile(r"[+-]?(?:inf|nan)")
 
 
 def read_data(path: str | Path, largest: int = LARGEST) -> object:
@@ -186,19 +185,13 @@ def _cure(message: str, line: str) -> str:
 
 def _json(text: str) -> object:
     try:
-        return json.loads(text, parse_float=str, parse_constant=_no_number, object_pairs_hook=_distinct)
+        return json.loads(text, parse_float=str, parse_constant=str, object_pairs_hook=_distinct)
     except json.JSONDecodeError as error:
         raise _BrokenError(_begun_small(error.msg), error.lineno, error.colno) from None
 
 
 def _number(literal: str) -> str:
-    if _NO_NUMBER.fullmatch(literal):
-        _no_number(literal)
     return literal.replace("_", "")
-
-
-def _no_number(literal: str) -> NoReturn:
-    raise _RefusedError(f"{literal} is not a number to calculate with; write a finite one.")
 
 
 def _distinct(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from typing import Any
 
 from rldrill.files import brief, kind_of, read_data, shown
 from rldrill.problems.catalogue import family
+from rldrill.problems.complaints import nearest
 from rldrill.problems.errors import FileError
 
 #: The version of the JSON that ``Exercise.data`` gives and that problem files have.
@@ -56,7 +57,10 @@ def read_problem(path: str | Path) -> dict[str, Any]:
         )
     unknown = [key for key in data if key not in _IGNORED | {"family", "given"}]
     if unknown:
-        raise FileError(f"{where}: {brief(unknown[0])} is not a field of a problem file; givens stand under 'given'.")
+        near = nearest(unknown[0], ("family", "given"))
+        raise FileError(
+            f"{where}: {brief(unknown[0])} is not a field of a problem file{near}; givens stand under 'given'."
+        )
     problem = {key: data[key] for key in ("family", "given") if key in data}
     if "given" in problem:
         from rldrill.model_file import with_files

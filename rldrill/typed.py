@@ -51,7 +51,7 @@ def _scalar(value: object, what: str) -> str:
         case None:
             return ""
         case bool():
-            return "yes" if value else "no"
+            return str(value).lower()
         case str():
             return f"({value})" if _PARTING.search(value) else value  # one entry must not be read as several
         case Rational():

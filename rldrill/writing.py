@@ -6,13 +6,16 @@ from pathlib import Path
 
 
 def write_bytes_atomically(path: Path, data: bytes) -> None:
-    """Write a file whole or not at all; what stood there before stays until the new file is complete.
+    """Write a file whole or not at all, in a folder that is made if need be.
+
+    What stood there before stays until the new file is complete.
 
     Raises:
-        OSError: the folder is missing or cannot be written to, or the disk is full; ``filename`` is set.
+        OSError: the folder cannot be written to, or the disk is full; ``filename`` is set.
     """
     temporary: str | None = None
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.")
         with os.fdopen(handle, "wb") as file:
             file.write(data)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import rldrill
 from rldrill.problems.errors import UsageError
 from rldrill.typed import typed
 
@@ -32,8 +33,8 @@ class Loud(float):
         (1e-7, "1e-07"),
         (Decimal("0.10"), "0.10"),
         (Fraction(1, 3), "1/3"),
-        (True, "yes"),
-        (False, "no"),
+        (True, "true"),
+        (False, "false"),
         ([], ""),
         ([1, 2], "[1, 2]"),
         ((1, "1/2"), "[1, 1/2]"),
@@ -62,3 +63,13 @@ def test_what_nests_too_deeply_is_refused(value: Any) -> None:
 def test_what_is_no_number_is_refused(value: Any) -> None:
     with pytest.raises(UsageError, match="a is neither a text nor a number; write it in quotes"):
         typed(value, "a")
+
+
+def test_true_is_yes_where_that_is_asked_and_named_as_it_stands_elsewhere() -> None:
+    exercise = rldrill.draw("markov-property", 1, 1)
+    (part,) = [part.label for part in exercise.parts if part.kind.name == "yes/no"]
+    right = exercise.solve()[part]
+    assert exercise.check(right, part).accepted
+    assert not exercise.check(not right, part).accepted
+    number = rldrill.draw("return", 1, 7).check(True)
+    assert number.says.startswith("'true' is not something this answer may contain")

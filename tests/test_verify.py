@@ -135,7 +135,7 @@ def a_point_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
         ('"sweep.toml" = {a = [4, 1.5]}', "a", "right", 1),
         ('"sweep.toml" = {a = [4, 2]}', "a", "wrong", Fraction(1, 2)),
         ('"sweep.toml" = {a = [4]}', "a", "unreadable", 0),
-        ('"sweep.toml" = {a = {rim = 4}}', "a", "unreadable", 0),
+        ('"sweep.toml" = {a = {rim = 4}}', "a", "wrong", Fraction(1, 2)),
         ('"sweep.toml" = {a = {rim = 4, slope = "1,5"}}', "a", "unreadable", 0),
         ('"sweep.toml" = {a = "4, 1.5", b = "drill, drive"}', "b", "right", 1),
         ('"sweep.toml" = {a = "4, 1.5", b = ["drill", "drive"]}', "b", "right", 1),
@@ -311,7 +311,7 @@ def test_lines_are_kept(folder: Path) -> None:
 
 def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> None:
     path = write(folder, "a.json", '{"student": 123, "x.toml": [true, false]}')
-    assert [(entry.student, entry.text) for entry in read_answers(path).entries] == [("123", "[yes, no]")]
+    assert [(entry.student, entry.text) for entry in read_answers(path).entries] == [("123", "[true, false]")]
     path = write(folder, "b.json", '{"x.toml": {"a": {"cool": {"fast": 1, "slow": 0.50}, "warm": -1}, "b": []}}')
     assert [entry.text for entry in read_answers(path).entries] == [
         "(cool, fast): 1, (cool, slow): 0.50, warm: -1",

@@ -349,8 +349,14 @@ def test_an_old_file_stays_when_the_new_one_fails(tmp_path: Path, monkeypatch: p
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_missing_folder_is_named(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError) as caught:
+def test_a_missing_folder_is_made(tmp_path: Path) -> None:
+    write_bytes_atomically(tmp_path / "no" / "none" / "x.pdf", b"new")
+    assert (tmp_path / "no" / "none" / "x.pdf").read_bytes() == b"new"
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path: Path) -> None:
+    (tmp_path / "no").write_text("a file")
+    with pytest.raises(FileExistsError) as caught:
         write_bytes_atomically(tmp_path / "no" / "x.pdf", b"")
     assert caught.value.filename == str(tmp_path / "no" / "x.pdf")
 
@@ -434,7 +440,9 @@ def test_a_run_that_was_ended_goes_on(tmp_path: Path) -> None:
     (tmp_path / "a-B.pdf").unlink()
     written, said = run(*arguments)
     assert written == ["a-B.pdf", "a.json"]
-    assert "3 of 4 PDFs are there already" in said
+    assert "3 of 4 PDFs are there already; the rest is written" in said
+    written, said = run(*arguments)
+    assert "4 of 4 PDFs are there already; --force writes them anew" in said
     assert bytes_in(tmp_path) == whole
 
 
@@ -472,7 +480,14 @@ def test_names_ids_and_files_are_mixed(tmp_path: Path) -> None:
     assert len(problems) == 4
 
 
-@pytest.mark.parametrize(("output", "message"), [(".", "is a folder"), ("x.txt", "does not end in .pdf")])
+@pytest.mark.parametrize(
+    ("output", "message"),
+    [
+        (".", "is a folder"),
+        ("x.txt", "x.txt has the ending of no format; give it one of .pdf, "),
+        ("x", "x has the ending of no format; give it one of .pdf, "),
+    ],
+)
 def test_the_command_refuses_other_paths(output: str, message: str) -> None:
     assert message in refused("-o", output)
 
@@ -483,10 +498,16 @@ def test_a_json_file_that_is_no_manifest_is_not_overwritten(tmp_path: Path) -> N
     assert [path.name for path in tmp_path.iterdir()] == ["x.json"]
 
 
-def test_a_missing_folder_is_found_out_before_anything_is_drawn(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError) as caught:
-        run("-o", tmp_path / "no" / "x.pdf")
-    assert caught.value.filename == str(tmp_path / "no")
+def test_a_problem_that_is_named_twice_is_printed_once(tmp_path: Path) -> None:
+    run("td-zero/1/62590", "td-zero/1/62590", "-o", tmp_path / "x.json")
+    (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
+    assert len(version["problems"]) == 1
+
+
+@pytest.mark.parametrize(("wanted", "said"), [(24, False), (300, True)])  # eight short problems take 300 nowhere
+def test_minutes_that_are_missed_are_told(tmp_path: Path, wanted: int, said: bool) -> None:
+    _, told = run("bellman", "--level", 1, "-n", 8, "-m", wanted, "--seed", 1, "-o", tmp_path / "no" / "x.html")
+    assert (f" minutes, not {wanted}; ask for other minutes, or name more topics or problems" in told) == said
 
 
 OWN = 'family = "return"\n[given]\nrewards = [7, 11, 13]\ngamma = "1/2"\n'  # R₀ = 7 + 11/2 + 13/4 = 63/4

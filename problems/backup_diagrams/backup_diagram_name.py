@@ -99,7 +99,8 @@ class Changed(Drawn):
     def _named(cls, given: object) -> object:
         if isinstance(given, dict):
             shows, change = given.get("shows"), given.get("change")
-            if shows in CHANGED and change in CHANGES and change not in CHANGED[shows]:
+            told = isinstance(shows, str) and isinstance(change, str)
+            if told and shows in CHANGED and change in CHANGES and change not in CHANGED[shows]:
                 possible = " or ".join(map(repr, CHANGED[shows]))
                 raise ValueError(f"change: {change!r} makes no diagram that has a name of {shows!r}; take {possible}")
         return given

@@ -53,7 +53,7 @@ class Given(Reversible):
                 raise ValueError("dynamics must hold one action only where action_values are given")
             check_keys(self.action_values, reached, "the action values", needed=reached)
             if empty := [state for state, row in self.action_values.items() if not row]:
-                raise ValueError(f"action_values: the actions of {empty[0]!r} are missing")
+                raise ValueError(f"action_values: the actions of {empty[0]!r} are missing; add them")
             if self.values:
                 raise ValueError("values and action_values cannot both be given; the leaves are of one kind")
         else:

@@ -54,7 +54,7 @@ class Event(Givens):
     @model_validator(mode="after")
     def _something(self) -> Self:
         if self.action is None and self.measurement is None:
-            raise ValueError("a step of the run has neither an action nor a measurement")
+            raise ValueError("a step of the run has neither an action nor a measurement; give one of them, or both")
         return self
 
 
@@ -101,7 +101,9 @@ class Given(Givens):
             raise ValueError("motion: no probability may be left open here without an outcome to find it from")
         check_outcome(self.outcome, self.left_open, states)
         if self.ahead is not None and self.ahead.measurement is None:
-            raise ValueError("ahead: the step ahead has no measurement whose probability could be asked for")
+            raise ValueError(
+                "ahead: the step ahead has no measurement whose probability could be asked for; give it one"
+            )
         for event in self.events:
             check_keys(dict.fromkeys(filter(None, [event.action])), tuple(self.motion) or ("none",), "an action", ())
             read = dict.fromkeys(filter(None, [event.measurement]))

@@ -67,7 +67,7 @@ class Data(Givens):
             if min(counts) < 1 or max(counts) > 1000:
                 raise ValueError(f"tosses: {name!r} needs from 1 to 1000 heads and as many tails, or ln 0 turns up")
         if self.models[0] == self.models[1]:
-            raise ValueError(f"models: {self.models[0]!r} is compared with itself")
+            raise ValueError(f"models: {self.models[0]!r} is compared with itself; name two")
         return self
 
 

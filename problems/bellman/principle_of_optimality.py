@@ -48,20 +48,22 @@ class Given(Givens):
         if len({edge[:2] for edge in self.edges}) < len(self.edges):
             raise ValueError("edges: an edge is given twice; give each once")
         if self.goal in self.onward:
-            raise ValueError(f"edges: {self.goal!r} is the goal, so no edge can lead on from it")
+            raise ValueError(f"edges: {self.goal!r} is the goal, so no edge can lead on from it; take those out")
         for edge in self.edges:
             if edge.next != self.goal and edge.next not in self.onward:
-                raise ValueError(f"edges: no edge leads on from {edge.next!r}, which is not the goal")
+                raise ValueError(f"edges: no edge leads on from {edge.next!r}, which is not the goal; add one")
         if self.start not in self.onward:
-            raise ValueError(f"start: no edge leads on from {self.start!r}")
+            raise ValueError(f"start: no edge leads on from {self.start!r}; add one")
         try:
             backwards = self.backwards
         except CycleError as error:
-            raise ValueError(f"edges: a path can go round and round through {error.args[1][0]!r}") from None
+            raise ValueError(
+                f"edges: a path can go round and round through {error.args[1][0]!r}; take one of its edges out"
+            ) from None
         if self.through is not None and self.through not in backwards:
-            raise ValueError(f"through: {self.through!r} is no state of the graph before the goal")
+            raise ValueError(f"through: {self.through!r} is no state of the graph before the goal; name one that is")
         if self.through is not None and self.through not in self.reached:
-            raise ValueError(f"through: no path from {self.start!r} reaches {self.through!r}")
+            raise ValueError(f"through: no path from {self.start!r} reaches {self.through!r}; name another state")
         return self
 
     @cached_property

@@ -43,7 +43,7 @@ class Given(Givens):
         check_keys(self.policy, states, "the policy", needed=states)
         for state, row in self.values.items():
             if not row:
-                raise ValueError(f"values: the action values of {state!r} are missing")
+                raise ValueError(f"values: the action values of {state!r} are missing; add them")
             check_chances(self.policy[state], state, tuple(row))
         check_keys(self.known or {}, states, "the known value", needed=())
         if self.equal and (self.known or len(states) != 2):

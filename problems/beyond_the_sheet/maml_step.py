@@ -50,7 +50,7 @@ class Given(Givens):
         if self.beta is not None and self.beta <= 0:
             raise ValueError(f"beta is {self.beta}; it must be above 0")
         if any(task.curvature <= 0 for task in self.tasks):
-            raise ValueError("tasks: a curvature is not above 0")
+            raise ValueError("tasks: a curvature is not above 0; make it so")
         if self.theta is None and (self.beta is not None or self.after is not None):
             raise ValueError("theta: which one the outer step leaves alone is asked without beta and after")
         if self.theta is not None and (self.beta is None) == (self.after is None):

@@ -42,7 +42,7 @@ class Bandit(Givens):
     @model_validator(mode="after")
     def _choice(self) -> Self:
         if len(self.every_arm) < 2:
-            raise ValueError("there must be at least two arms")
+            raise ValueError("there must be at least two arms; add one")
         check_keys(dict.fromkeys(pull.arm for pull in self.every_pull), self.every_arm, "a pull", needed=())
         return self
 
@@ -110,7 +110,9 @@ class Balance(Averaged):
     def _balances(self) -> Self:
         for arm in self.between:
             if arm not in self.tried:
-                raise ValueError(f"between: {arm!r} was never pulled, so it has no upper confidence bound")
+                raise ValueError(
+                    f"between: {arm!r} was never pulled, so it has no upper confidence bound; name another"
+                )
         better, rarer = ([pull.reward for pull in self.pulls if pull.arm == arm] for arm in self.between)
         if len(better) <= len(rarer) or sum(better) * len(rarer) <= sum(rarer) * len(better):
             raise ValueError(

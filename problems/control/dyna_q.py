@@ -87,9 +87,9 @@ class Given(ActionRun):
 
     def _check_entry(self, field: str, entry: Entry) -> None:
         if entry.action not in self.values.get(entry.state, {}):
-            raise ValueError(f"values: {field} has {entry.action!r} in {entry.state!r}, which has no value")
+            raise ValueError(f"values: {field} has {entry.action!r} in {entry.state!r}, which has no value; add it")
         if entry.next not in self.trajectory.terminal and not self.values.get(entry.next):
-            raise ValueError(f"values: {field} leads to {entry.next!r}, whose action values are missing")
+            raise ValueError(f"values: {field} leads to {entry.next!r}, whose action values are missing; add them")
 
     @property
     def tried(self) -> tuple[Entry, ...]:

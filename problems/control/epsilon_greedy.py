@@ -56,7 +56,7 @@ class Given(Givens):
         if self.backwards and not super().parameters():
             raise ValueError("epsilon: leave it open, for it is asked for")
         if self.taken and self.taken.action not in self.values:
-            raise ValueError(f"taken: {self.taken.action!r} has no value")
+            raise ValueError(f"taken: {self.taken.action!r} has no value; add it")
         if self.state_value is not None and len(self.best) == len(self.values):
             raise ValueError("state_value: all actions are equally good, so the state is worth that for every ε")
         return self

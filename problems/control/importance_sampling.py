@@ -46,14 +46,19 @@ class Given(Givens):
     def _fits(self) -> Self:
         for number, episode in enumerate(self.episodes, 1):
             if episode.states[-1] not in episode.terminal:
-                raise ValueError(f"episodes[{number}]: an episode must end in a terminal state")
+                raise ValueError(
+                    f"episodes[{number}]: an episode must end in a terminal state; "
+                    "list its last state as terminal, or go on to the end"
+                )
             if len(episode.actions) != len(episode.rewards):
-                raise ValueError(f"episodes[{number}]: the action taken in every state that is left is needed")
+                raise ValueError(f"episodes[{number}]: the action taken in every state that is left is needed; add it")
             if episode.states[0] != self.start:
                 raise ValueError(f"episodes[{number}]: all episodes must start in {self.start!r}")
             for state, action in zip(episode.states, episode.actions, strict=False):
                 if not self.behaviour.get(state, {}).get(action):
-                    raise ValueError(f"behaviour: {action!r} is taken in {state!r}, where it has no probability")
+                    raise ValueError(
+                        f"behaviour: {action!r} is taken in {state!r}, where it has no probability; add it"
+                    )
         for state, acted in self.behaviour.items():
             check_chances(acted, state, tuple(acted), "the behaviour policy")
         check_keys(self.target, tuple(self.behaviour), "the target policy", needed=tuple(self.behaviour))

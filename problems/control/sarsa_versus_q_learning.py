@@ -77,7 +77,7 @@ class Given(ActionRun):
     def _bootstraps(self) -> Self:
         self.demand_last_action("Sarsa")
         if self.instead is not None and self.instead.action not in self.values.get(self.instead.state, {}):
-            raise ValueError(f"instead: {self.instead.action!r} has no value in {self.instead.state!r}")
+            raise ValueError(f"instead: {self.instead.action!r} has no value in {self.instead.state!r}; add it")
         if self.known is None:
             return self
         if not isinstance(self.alpha, Parameter):

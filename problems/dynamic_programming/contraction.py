@@ -22,13 +22,13 @@ REVISION = 4
 
 def _positive(value: Fraction) -> Fraction:
     if value <= 0:
-        raise ValueError(f"{value} is not above 0")
+        raise ValueError(f"{value} is not above 0; give one that is")
     return value
 
 
 def _below_one(value: Fraction) -> Fraction:
     if value == 1:
-        raise ValueError("with a discount of 1 value iteration is no contraction")
+        raise ValueError("with a discount of 1 value iteration is no contraction; choose a smaller one")
     return value
 
 

@@ -38,7 +38,7 @@ class Given(Givens):
             self._check_rows()
             return self
         if self.gamma is None:
-            raise ValueError("gamma: the discount is needed to find the missing values")
+            raise ValueError("gamma: the discount is needed to find the missing values; add it")
         open_rows = [row[:2] for row in self.missing.transitions if isinstance(row.reward, Parameter)]
         if super().parameters() and (len(open_rows) != 1 or open_rows[0] != self.gaps[-1]):
             raise ValueError("missing: only one reward of the last action there can be left open")
@@ -46,7 +46,7 @@ class Given(Givens):
             if state not in self.values:
                 raise ValueError(f"values: {state!r} does not occur; give it there, if need be as an empty table")
             if action in self.values[state]:
-                raise ValueError(f"missing: {action!r} in {state!r} has a value already")
+                raise ValueError(f"missing: {action!r} in {state!r} has a value already; take one of them out")
         if super().parameters() and len(self.values[open_rows[0][0]]) == 0:
             raise ValueError("values: another action of the state is needed, to compare what is left open with")
         self._check_rows()
@@ -56,15 +56,15 @@ class Given(Givens):
                     f"missing: {row.next!r} is reached but has no values; give them or list it as terminal"
                 )
             if row.next in self.missing.states:
-                raise ValueError(f"missing: {row.next!r} is reached but has a missing value itself")
+                raise ValueError(f"missing: {row.next!r} is reached but has a missing value itself; give it there")
         return self
 
     def _check_rows(self) -> None:
         for state in self.values:
             if not self.actions[state]:
-                raise ValueError(f"values: no action of {state!r} is given")
+                raise ValueError(f"values: no action of {state!r} is given; add one")
             if state in self.terminal:
-                raise ValueError(f"values: {state!r} is terminal, so no action can be taken there")
+                raise ValueError(f"values: {state!r} is terminal, so no action can be taken there; take them out")
 
     @property
     def tied(self) -> tuple[str, str] | None:

@@ -73,9 +73,9 @@ class Given(Givens):
         if (self.features is None) == (self.bumps is None):
             raise ValueError("give either features or bumps")
         if len(set(self.actions)) < len(self.actions):
-            raise ValueError("actions: one is named twice")
+            raise ValueError("actions: one is named twice; keep one of them")
         if self.action is not None and self.action not in self.actions:
-            raise ValueError(f"action: {self.action!r} is not among the actions")
+            raise ValueError(f"action: {self.action!r} is not among the actions; name one that is")
         if len(self.theta) != self.size * len(self.actions):
             needed = f"{self.size}·{len(self.actions)} = {self.size * len(self.actions)}"
             raise ValueError(

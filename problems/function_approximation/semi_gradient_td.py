@@ -49,7 +49,9 @@ class Given(Givens):
         check_keys(self.features, needed, "the row of features", needed=needed)
         blocks = max(1, len(self.actions))
         if len(self.theta) % blocks:
-            raise ValueError(f"theta: {len(self.theta)} weights cannot be shared among {blocks} actions")
+            raise ValueError(
+                f"theta: {len(self.theta)} weights cannot be shared among {blocks} actions; give as many for each"
+            )
         check_features(self.features, len(self.theta) // blocks)
         if self.actions:
             self._check_actions()
@@ -58,7 +60,7 @@ class Given(Givens):
     def _check_actions(self) -> None:
         run = self.trajectory
         if len(set(self.actions)) < len(self.actions):
-            raise ValueError("actions: one is named twice")
+            raise ValueError("actions: one is named twice; keep one of them")
         ended = run.states[-1] in run.terminal
         if len(run.actions) != len(run.states) - ended:
             raise ValueError(
@@ -66,7 +68,7 @@ class Given(Givens):
             )
         for action in run.actions:
             if action not in self.actions:
-                raise ValueError(f"trajectory: {action!r} is taken but has no block of weights")
+                raise ValueError(f"trajectory: {action!r} is taken but has no block of weights; name it in actions")
 
 
 #: Weights at level 2: half an estimate is whole.

@@ -90,7 +90,9 @@ class Given(Reversible, ModelAndPolicy):
             yield before
             return
         if any(row.state == state for row in before):
-            raise ValueError(f"mdp: {state!r} can come again in an episode, so this is no tree of chances")
+            raise ValueError(
+                f"mdp: {state!r} can come again in an episode, so this is no tree of chances; take out what leads back"
+            )
         for action in self.mdp.actions[state]:
             if self.chances[state].get(action, 0) != 0:
                 for row in self.mdp.outcomes[state, action]:

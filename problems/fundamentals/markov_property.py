@@ -61,7 +61,7 @@ class Given(Givens):
         check_one_letter(self)
         for row in self.table:
             if isinstance(row.weight, Fraction) and row.weight < 0:
-                raise ValueError(f"table: the weight of {', '.join(row[:3])} is below 0")
+                raise ValueError(f"table: the weight of {', '.join(row[:3])} is below 0; give 0 or more")
         (doubled, count), *_ = Counter(row[:3] for row in self.table).most_common(1)
         if count > 1:
             raise ValueError(f"table: {', '.join(doubled)} is given twice; give it once")
@@ -71,7 +71,7 @@ class Given(Givens):
             if all(row.weight == 0 for row in self.table if row[:2] == history):
                 raise ValueError(f"table: the history {', '.join(history)} never occurs; leave its rows out")
         if self.asked not in self.outcomes:
-            raise ValueError(f"asked: {self.asked!r} is not a next state of the table")
+            raise ValueError(f"asked: {self.asked!r} is not a next state of the table; name one that is")
         return self
 
     @property

@@ -42,7 +42,9 @@ class Single(Reversible):
     @model_validator(mode="after")
     def _inside(self) -> "Single":
         if self.time is not None and self.time >= len(self.rewards):
-            raise ValueError(f"time is {self.time}, but the episode ends at {len(self.rewards)}")
+            raise ValueError(
+                f"time is {self.time}, but the episode ends at {len(self.rewards)}; choose an earlier time"
+            )
         per_step(self.gamma, len(self.rewards))
         check_one_open(self)
         return self

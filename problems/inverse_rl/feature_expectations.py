@@ -42,12 +42,12 @@ class Given(Givens):
         if self.estimate is not None and (not super().parameters() or self.size < 2):
             raise ValueError("estimate: leave gamma open, for it is asked for, and give two features at least")
         if not all(self.trajectories):
-            raise ValueError("trajectories: one of them has no states")
+            raise ValueError("trajectories: one of them has no states; add them")
         check_features(self.features, self.features)
         visited = dict.fromkeys(state for trajectory in self.trajectories for state in trajectory)
         for state in visited:
             if state not in self.features:
-                raise ValueError(f"features: {state!r} is visited, but its features are missing")
+                raise ValueError(f"features: {state!r} is visited, but its features are missing; add them")
         return self
 
     @property

@@ -55,7 +55,7 @@ class Given(Givens):
             raise ValueError("matched: leave one number open, which is asked for, and give a single feature")
         for state in self.terminal:
             if state in self.features:
-                raise ValueError(f"features: {state!r} is terminal, so no features count there")
+                raise ValueError(f"features: {state!r} is terminal, so no features count there; take them out")
         check_features(self.features, self.features)
         check_motion(self.motion, self.states, self.terminal)
         check_keys(self.policy, self.states, "the policy", needed=self.states)

@@ -34,7 +34,7 @@ class Rival(Givens):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         if self.margin < 0:
-            raise ValueError(f"margin is {self.margin}, but a margin is not negative")
+            raise ValueError(f"margin is {self.margin}, but a margin is not negative; give 0 or more")
         return self
 
 
@@ -57,7 +57,7 @@ class Given(Givens):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         if EXPERT in self.policies:
-            raise ValueError(f"policies: {EXPERT!r} is the name of the expert's own policy")
+            raise ValueError(f"policies: {EXPERT!r} is the name of the expert's own policy; rename it")
         check_lengths(
             {"w": self.w, EXPERT: self.expert} | {name: rival.mu for name, rival in self.policies.items()}, "features"
         )

@@ -62,10 +62,10 @@ class Given(System):
             raise ValueError("the dynamics give the next state itself here; leave out 'step' and 'where'")
         known = {*self.state, *self.action, *self.constants}
         if unknown := [name for name in letters(self.reward) if name not in known]:
-            raise ValueError(f"the reward holds {unknown[0]!r}, which has no value")
+            raise ValueError(f"the reward holds {unknown[0]!r}, which has no value; give it one")
         n = len(self.state)
         if len(self.gradient) != n:
-            raise ValueError(f"gradient has {len(self.gradient)} entries, but the state {n}")
+            raise ValueError(f"gradient has {len(self.gradient)} entries, but the state {n}; give as many")
         check_shape("hessian", self.hessian, n, n, f"with {n} states ")
         check_symmetric("hessian", self.hessian)
         if self.reached is not None and set(self.reached) != set(self.state):

@@ -71,7 +71,7 @@ class Given(Conventional):
         ):  # fmt: skip
             check_shape(name, matrix, rows, columns, f"with A {n}×{n} and {m} inputs ")
         if self.start is not None and len(self.start) != n:
-            raise ValueError(f"start has {len(self.start)} entries, but the state {n}")
+            raise ValueError(f"start has {len(self.start)} entries, but the state {n}; give as many")
         if self.left_open and m > 1:
             raise ValueError("R: a price can only be left open where there is one action")
         if self.action is not None and (self.start is None or not self.left_open):

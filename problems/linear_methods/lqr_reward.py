@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.linear_quadratic import NOTATIONS, LinearQuadratic, by_time, costs, draw_system, situation
+from rldrill.problems.linear_quadratic import NOTATIONS, LinearQuadratic, by_time, costs, draw_system, one_or, situation
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatricesField, check_shape, diagonal, tabular
 from rldrill.problems.parts import Number, Part
@@ -47,7 +47,7 @@ class Given(LinearQuadratic):
             raise ValueError("total: it goes with a price that R leaves open, such as rho")
         count = self.horizon + self.plain
         if len(self.L) not in (1, count):
-            raise ValueError(f"L holds {len(self.L)} matrices; give one, or {count} for the times from 0")
+            raise ValueError(f"L holds {len(self.L)} matrices; {one_or(count)}")
         for gain in self.L:
             check_shape("L", gain, self.actions, len(self.start), f"with {len(self.start)} states ")
         return self

@@ -42,7 +42,7 @@ class Given(SoftmaxRun):
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
-        check_values(self.values, self.trajectory)
+        check_values(self.values, self.trajectory.states, self.trajectory.terminal)
         if (deepest := max(self._depths)) > _DEEPEST:
             raise ValueError(
                 f"trajectory: the weights of {deepest} steps would stand in each other's exponents, {_DEEPEST} can be "

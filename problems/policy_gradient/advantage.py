@@ -88,7 +88,7 @@ class Run(Givens):
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
-        check_values(self.values, self.trajectory)
+        check_values(self.values, self.trajectory.states, self.trajectory.terminal)
         return self
 
 

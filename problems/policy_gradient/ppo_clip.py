@@ -56,7 +56,7 @@ class Sample(Givens):
             raise ValueError("give either the old probability or the old policy's preferences")
         for name, preferences in (("preferences", self.preferences), ("old_preferences", self.old_preferences)):
             if preferences is not None and self.action not in preferences:
-                raise ValueError(f"{name}: the preference of {self.action!r} is missing")
+                raise ValueError(f"{name}: the preference of {self.action!r} is missing; add it")
         return self
 
 

@@ -35,8 +35,7 @@ class Given(Episode):
 
     @model_validator(mode="after")
     def _based(self) -> Self:
-        run = self.trajectory
-        check_keys(self.baseline, (*run.states, *run.terminal), "the baseline", needed=run.states[:-1])
+        check_keys(self.baseline, tuple(self.baseline), "the baseline", needed=self.trajectory.states[:-1])
         return self
 
 

@@ -63,7 +63,7 @@ class Given(Givens):
             check_keys(self.policy, actions, "the probability", needed=actions)
             check_sum(self.policy.values(), "policy: the probabilities")
         if self.action is not None and self.action not in actions:
-            raise ValueError(f"action: {self.action!r} has no features")
+            raise ValueError(f"action: {self.action!r} has no features; add them")
         if self.component is not None:
             self._check_component(self.component)
         return self

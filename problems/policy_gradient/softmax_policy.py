@@ -52,9 +52,9 @@ class Given(Givens):
         if self.odds is not None:
             for action in self.odds[:2]:
                 if action not in self.features:
-                    raise ValueError(f"odds: {action!r} has no features")
+                    raise ValueError(f"odds: {action!r} has no features; add them")
             if self.odds.times <= 0:
-                raise ValueError(f"odds: {self.odds.times} is not above 0")
+                raise ValueError(f"odds: {self.odds.times} is not above 0; give one that is")
             if super().parameters() != ("x",):
                 raise ValueError("theta: with odds one weight must be ln x")
         return self

@@ -38,11 +38,13 @@ class Given(Reversible):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        check_values(self.values, self.trajectory)
+        check_values(self.values, self.trajectory.states, self.trajectory.terminal)
         per_step(self.gamma, len(self.trajectory.rewards))
         check_one_open(self)
         if self.time >= len(self.trajectory.rewards):
-            raise ValueError(f"time is {self.time}, but the run ends at {len(self.trajectory.rewards)}")
+            raise ValueError(
+                f"time is {self.time}, but the run ends at {len(self.trajectory.rewards)}; choose an earlier time"
+            )
         return self
 
     @property

@@ -44,7 +44,7 @@ class Given(Reversible):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        check_values(self.values, self.trajectory)
+        check_values(self.values, self.trajectory.states, self.trajectory.terminal)
         per_step(self.gamma, len(self.trajectory.rewards))
         check_one_open(self)
         last = len(self.trajectory.rewards)

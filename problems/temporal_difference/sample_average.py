@@ -43,7 +43,9 @@ class Given(Reversible):
         if self.alpha is None:
             check_keys(self.counts, known, "the number of visits", needed=known)
             if negative := [state for state, count in self.counts.items() if not 0 <= count <= 10**6]:
-                raise ValueError(f"counts: {negative[0]!r} cannot have been visited {self.counts[negative[0]]} times")
+                raise ValueError(
+                    f"counts: {negative[0]!r} cannot have been visited {self.counts[negative[0]]} times; give 0 or more"
+                )
         elif self.counts:
             raise ValueError("counts: a constant step size does not depend on them; give either counts or alpha")
         elif len(self.values) > 1:

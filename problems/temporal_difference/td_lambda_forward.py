@@ -45,7 +45,10 @@ class Given(ValueRun):
         end = len(self.trajectory.rewards)
         for time in self.asked:
             if not 0 <= time < end:
-                raise ValueError(f"asked: there is no state to update at time {time} in a run that ends at {end}")
+                raise ValueError(
+                    f"asked: there is no state to update at time {time} in a run that ends at {end}; "
+                    "choose an earlier time"
+                )
         if len(set(self.updated)) < len(self.updated):
             raise ValueError("asked: a state is updated twice; ask for one time of each state only")
         return self

@@ -119,7 +119,7 @@ def command(
             return
         written = _reprinted(source, output, changes, only_keys=key, force=force)
     else:
-        blueprint, stem, planned = _blueprint(list(names or ()), count, minutes, level)
+        blueprint, stem, planned = _blueprint(list(dict.fromkeys(names or ())), count, minutes, level)
         blueprint = blueprint.but(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
         )
@@ -141,7 +141,7 @@ def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None
     with _progress("Drawing", len(people) or blueprint.versions) as advance:
         exam = plan(blueprint, roster=people, secret=_secret(secret_file), advance=advance)
     typer.echo(f"seed {exam.seed}", err=True)
-    _tell_fairness(len(exam.versions), fairness(exam))
+    _tell(len(exam.versions), fairness(exam), blueprint.minutes)
     return exam
 
 
@@ -156,7 +156,10 @@ def _secret(path: Path | None) -> "Secret | None":
     return secret
 
 
-def _tell_fairness(number: int, figures: "Fairness") -> None:
+def _tell(number: int, figures: "Fairness", minutes: int | None) -> None:
+    """Say how equal the versions are, and by how much they miss the minutes that were asked for."""
+    if minutes and (missed := figures.says_what_is_missed(minutes)):
+        typer.echo(f"rldrill: {missed}", err=True)
     if number == 1:
         return
     typer.echo(f"{number} versions: {figures.says()}", err=True)
@@ -165,7 +168,7 @@ def _tell_fairness(number: int, figures: "Fairness") -> None:
 
 
 def _from(source: Path, changes: dict[str, Any]) -> "Exam":
-    from dataclasses import replace
+    from msgspec.structs import replace
 
     from rldrill.exam.manifest import read_manifest
 
@@ -260,7 +263,7 @@ def _printed(
         make_room(files, force=force)
     with _progress("Drawing", number) as advance:
         exam = drawn(blueprint.but(seed=seed), typst_version(), roster=people, secret=secret, advance=advance)
-    _tell_fairness(number, exam.fairness)
+    _tell(number, exam.fairness, blueprint.minutes)
     data = exam.manifest
     if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
         make_room(files, force=force)
@@ -271,7 +274,8 @@ def _reprinted(
     source: Path, output: Path | None, changes: dict[str, Any], *, only_keys: bool, force: bool
 ) -> list[Path]:
     import json
-    from dataclasses import asdict, replace
+
+    from msgspec.structs import asdict, replace
 
     from rldrill.exam.manifest import LARGEST, codes, read_exam, typst_of, written
     from rldrill.files import read_text
@@ -306,9 +310,10 @@ def _reprinted(
 
 def _counted(files: "Files", number: int, run: Callable[[Callable[[], None]], Iterator[Path]]) -> list[Path]:
     """What was written, and a word on what was there already."""
-    there = sum(path.exists() for path in files.pdfs())
+    there, every = sum(path.exists() for path in files.pdfs()), len(files.pdfs())
     if there:
-        typer.echo(f"rldrill: {there} of {len(files.pdfs())} PDFs are there already; the rest is written", err=True)
+        rest = "the rest is written" if there < every else "--force writes them anew"
+        typer.echo(f"rldrill: {there} of {every} PDFs are there already; {rest}", err=True)
     with _progress("Typesetting", number) as advance:
         return sorted(run(advance), key=[*files.pdfs(), files.manifest].index)
 
@@ -334,4 +339,5 @@ def _print(paths: list[str], *, as_json: bool) -> None:
     if as_json:
         print_json(paths)
     else:
-        typer.echo("\n".join(paths))
+        for path in paths:
+            typer.echo(path)

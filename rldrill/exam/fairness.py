@@ -11,6 +11,9 @@ from rldrill.exercise import Exercise
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import answer_kind
 
+#: How far an exam's minutes may be from those that are wanted, in parts of these, without a word.
+_NEAR = 0.1
+
 
 class Fairness(Struct, frozen=True):
     """The figures of an exam's versions.
@@ -38,6 +41,16 @@ class Fairness(Struct, frozen=True):
         return (
             f"shared problems {self.shared_problems}, shared answers {self.shared_answers}, "
             f"{self.minutes[0]} to {self.minutes[1]} minutes (spread {100 * self.spread:.1f} %)"
+        )
+
+    def says_what_is_missed(self, wanted: int) -> str:
+        """How many minutes there are, in a sentence, where they miss those that are wanted; nothing where not."""
+        least, most = self.minutes
+        if all(abs(minutes - wanted) <= _NEAR * wanted for minutes in self.minutes):
+            return ""
+        found = f"{least}" if least == most else f"{least} to {most}"
+        return (
+            f"the problems take {found} minutes, not {wanted}; ask for other minutes, or name more topics or problems"
         )
 
     def says_what_is_scarce(self, versions: int) -> str:

@@ -1,6 +1,7 @@
 """The manifest of an exam: all that was printed, as JSON, from which it is graded and printed again years later."""
 
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
@@ -8,7 +9,7 @@ from typing import Annotated, Any, TypeGuard
 
 from msgspec import Struct
 from msgspec.structs import asdict, replace
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill import __version__
 from rldrill.exam.blueprint import Notation
@@ -17,6 +18,8 @@ from rldrill.exam.exam import Exam, Head, Layout, Person, Version, minutes_of, p
 from rldrill.exam.fairness import fairness
 from rldrill.exercise import Exercise, read
 from rldrill.files import read_data, shown
+from rldrill.problems.complaints import says
+from rldrill.problems.document import joined
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.identity import Identity, looks_like_id, split_id
 from rldrill.problems.notations import LECTURE
@@ -113,9 +116,22 @@ class _Part(_Table):
 
 class _Problem(_Table):
     id: str | None = None
+    family: str | None = None
     slot: Annotated[int, Field(ge=0)] | None = None
     parts: Annotated[tuple[_Part, ...], Field(min_length=1)]
     problem: dict[str, Any]
+
+    @property
+    def families(self) -> set[str]:
+        """The families that it is of, by its ID, its own word and the problem itself: one, unless they differ."""
+        named = split_id(self.id)[0] if self.id is not None and looks_like_id(self.id) else None
+        return {name for name in (named, self.family, self.problem.get("family")) if isinstance(name, str)}
+
+
+def _short(code: str) -> str:
+    if not re.fullmatch("[A-Z0-9]{1,8}", code):
+        raise ValueError("must be 1 to 8 capital letters or digits")
+    return code
 
 
 class _Person(_Table):
@@ -124,7 +140,7 @@ class _Person(_Table):
 
 
 class _Version(_Table):
-    code: Annotated[str, Field(pattern=r"^[A-Z0-9]{1,8}$")]  # it is in the names of files
+    code: Annotated[str, AfterValidator(_short)]  # it is in the names of files
     person: _Person | None = None
     problems: Annotated[tuple[_Problem, ...], Field(min_length=1)]
 
@@ -264,8 +280,8 @@ def _checked(path: str | Path) -> _Manifest:
         first = error.errors()[0]
         place = ".".join(str(step + 1) if isinstance(step, int) else str(step) for step in first["loc"])
         raise FileError(
-            f"{where}: the manifest is damaged at {place} ({first['msg'][:1].lower()}{first['msg'][1:]}); "
-            "take it from a backup, or write the exam again."
+            f"{where}: the manifest is damaged at {place} ({says(first)}); take it from a backup, or write the exam "
+            "again."
         ) from None
     codes = [each.code for each in result.versions]
     if twice := next((code for code in codes if codes.count(code) > 1), None):
@@ -300,6 +316,9 @@ def _exercise(entry: _Problem, where: str) -> Exercise:
         exercise = read(entry.problem, where)
     except UsageError as error:
         raise FileError(f"{where}: {error}") from None
+    if len(entry.families) > 1:
+        of = joined(sorted(entry.families))
+        raise FileError(f"{where}: its ID, family and problem are of {of}, not of one; take it from a backup.")
     worth = {part.part: part.points for part in entry.parts}
     asked = [part.label for part in exercise.problem.parts]
     if list(worth) != asked:

@@ -1,6 +1,5 @@
 """Which formats an exam is written in, and by what endings they are known."""
 
-import errno
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
@@ -49,12 +48,15 @@ def format_of(path: Path | None, name: str | None = None) -> Format | None:
     """The format of that name, or the one that the file's ending tells; None for a PDF, which is printed.
 
     Raises:
-        UsageError: there is no such format, or the file's name ends as those of another.
+        UsageError: there is no such format, or the file's name ends as those of none.
     """
     if name is None:
-        if path is None:
+        if path is None or path.is_dir():
             return None
-        return next((each for each in FORMATS.values() if path.name.lower().endswith(each.ending)), None)
+        endings = {".pdf": None, **{each.ending: each for each in reversed(FORMATS.values())}}
+        if path.suffix.lower() not in endings:
+            raise UsageError(f"{path} has the ending of no format; give it one of {', '.join(endings)}.")
+        return endings[path.suffix.lower()]
     wanted = name.strip().lower()
     if wanted == "pdf":
         return None
@@ -108,10 +110,7 @@ def check(exam: Exam, path: Path, format_: Format, *, force: bool) -> None:
 
     Raises:
         UsageError: so it is, and it is not to be replaced.
-        FileNotFoundError: the folder does not exist.
     """
-    if not path.parent.is_dir():
-        raise FileNotFoundError(errno.ENOENT, "No such folder", str(path.parent))
     there = [target for version in exam.versions if (target := version_path(exam, path, format_, version)).exists()]
     if there and not force:
         raise UsageError(f"{there[0]} is there already; --force replaces it, or choose another name with -o.")

@@ -104,14 +104,14 @@ class Assignment:
             if other[:3] == (family, level, seed):
                 if revision in (None, other[3]):
                     return place
-                return f"{name} is of another revision than the exam's"
+                return f"{name} is of another revision than the exam's; write {printed_id} or {place + 1} for that one"
         for each in self.versions.values():
             if any(one and looks_like_id(one) and split_id(one)[:3] == (family, level, seed) for one in each.ids):
                 return f"{name} is of version {each.code}, and version {version.code} was sat"
         same = [one for one in version.ids if one and looks_like_id(one) and split_id(one)[0] == family]
         if same and all(split_id(one)[1] != level for one in same):
             return f"{name} is of another level than the exam's"
-        return f"{name} is not in this exam"
+        return f"{name} is not in this exam; its problems may be called by their numbers, 1 to {len(version.ids)}"
 
     def guesses(self, entries: Sequence[Entry], version: "Printed") -> bool:
         """Whether somebody tries IDs out, to learn which ones the exam has, and redraw their keys."""

@@ -74,14 +74,14 @@ def verify(
     """Judge files of answers; what cannot be graded is told, and does not stop the rest.
 
     Args:
-        paths: the files.
+        paths: the files; one that is named twice is read once.
         settings: what is graded, and how.
         advance: called with how many students are graded, and how many there are.
     """
     settings = settings or Settings()
     handed: list[HandedIn] = []
     refused: list[Refusal] = []
-    for path in paths:
+    for path in dict.fromkeys(paths):
         try:
             handed.append(read_answers(path))
             refused += handed[-1].refused

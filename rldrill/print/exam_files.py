@@ -1,6 +1,5 @@
 """The files of an exam: a worksheet and a key for every version, the manifest, and all of a roster in one."""
 
-import errno
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -69,14 +68,11 @@ def check_output(output: Path) -> None:
 
     Raises:
         UsageError: it is a folder, does not end in ``.pdf``, or a file that is no manifest is in the way.
-        FileNotFoundError: its folder does not exist.
     """
     if output.is_dir():
         raise UsageError(f"{output} is a folder; give the name of a PDF file, such as {output / 'worksheet.pdf'}.")
     if output.suffix.lower() != ".pdf":
         raise UsageError(f"{output} does not end in .pdf; a worksheet is written as PDF.")
-    if not output.parent.is_dir():
-        raise FileNotFoundError(errno.ENOENT, "No such folder", str(output.parent))
     beside = output.with_suffix(".json")
     if beside.exists() and not is_manifest(beside):
         raise UsageError(f"{beside} would be overwritten, but is not a worksheet's manifest; choose another name.")

@@ -8,12 +8,13 @@ from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Part, YesNo
 from rldrill.quiz.mistakes import called
-from rldrill.solutions.answers.judging import Outcome
+from rldrill.solutions.answers.judging import Outcome, Verdict
 
 if TYPE_CHECKING:
     from rldrill.diagnosis import Diagnosis
@@ -118,6 +119,8 @@ class Record(Struct):
         before = takewhile(lambda record: record is not current, self.parts)
         texts = {record.part.label: record.counted[-1].typed for record in before if record.counted}
         graded = self.exercise.grade({**texts, current.part.label: text})[current.part.label]
+        if graded.verdict is not None and graded.verdict.missing:  # it can be typed again
+            graded = replace(graded, verdict=Verdict(Outcome.UNREADABLE, graded.verdict.missing))
         current.answers.append(graded)
         current.made.append(self._mistakes(current, graded))
         if graded.accepted:

@@ -22,7 +22,7 @@ from rldrill.quiz.sitting import Place, Sitting, by_topic
 from rldrill.render.compact import Compact
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, render, renderable, words
-from rldrill.solutions.answers.judging import read_answer
+from rldrill.solutions.answers.judging import Incomplete, read_answer
 from rldrill.solutions.answers.rule import RULE
 from rldrill.solutions.answers.text import Unreadable
 
@@ -213,7 +213,8 @@ class SittingScreen:
         try:
             read_answer(sitting.exercise(place).solution, sitting.part(place), text)
         except Unreadable as error:
-            kept = words(("Kept, but it cannot be read and would count as wrong: ", "yellow"), error.message)
+            fault = "what is missing" if isinstance(error, Incomplete) else "it cannot be read and"
+            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), error.message)
             self._display.signed(("?", "yellow"), kept)
             return False
         return True

@@ -1,13 +1,14 @@
 """From a typed answer to a verdict that says what is wrong and why."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
 from typing import Any
 
 from msgspec import Struct
 
+from rldrill.problems.document import joined
 from rldrill.problems.expressions import GREEK
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
@@ -20,9 +21,25 @@ from rldrill.solutions.solution import Solution
 
 #: An answer may be so many times as long as the right one is as it is typed: with decimals, names, and spaces.
 _ROOM = 4
+#: So many of the entries that were left out are named.
+_NAMED = 3
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 #: A line of a working that says what it works out: the head of the name, V of V(s) = 2.
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)[^=:≈\n]*+[=:≈]")
+
+
+class Incomplete(Unreadable):
+    """What was typed leaves entries out.
+
+    Attributes:
+        cells: the entries that were given, by name.
+    """
+
+    def __init__(self, missing: Sequence[str], cells: dict[str, Cell]) -> None:
+        more = [f"{len(missing) - _NAMED} more"] if len(missing) > _NAMED + 1 else missing[_NAMED:]
+        are, them = ("is", "it") if len(missing) == 1 else ("are", "them")
+        super().__init__(f"{joined([*missing[:_NAMED], *more])} {are} missing; give {them} too.")
+        self.cells = cells
 
 
 class Outcome(Enum):
@@ -47,7 +64,8 @@ class Verdict(Struct, frozen=True):
         misconceptions: the typical mistakes that give exactly this answer.
         told: those of them that ``says`` tells of; where few answers are possible, a wrong one proves none of several.
         wrong_cells: which entries of a table, vector or matrix are wrong.
-        value: the value that was read, to go on from in later parts.
+        value: the value that was read, to go on from in later parts; None if it is not whole.
+        missing: the sentence that asks for entries that were left out, where one may type again; they count as wrong.
     """
 
     outcome: Outcome
@@ -58,6 +76,7 @@ class Verdict(Struct, frozen=True):
     wrong_cells: tuple[str, ...] = ()
     value: Any = None
     told: tuple[Misconception, ...] = ()
+    missing: str = ""
 
     def __repr__(self) -> str:
         return f"<Verdict {self.outcome.value}: {self.says}>"
@@ -83,12 +102,12 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     part = part_of(solution, label)
     try:
         cells = read_answer(solution, part, text)
+    except Incomplete as error:
+        return _partly(solution, part, error)
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
-    kind = answer_kind(part.kind)
-    value = kind.value({name: _content(cell) for name, cell in cells.items()})
-    read = ", ".join(f"{name}: {echo}" if name else echo for name, echo in ((n, _echo(c)) for n, c in cells.items()))
-    return _judge(solution, part, cells, value, read, dict(earlier or {}))
+    value = answer_kind(part.kind).value({name: _content(cell) for name, cell in cells.items()})
+    return _judge(solution, part, cells, value, _read(cells), dict(earlier or {}))
 
 
 def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
@@ -96,6 +115,7 @@ def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
 
     Raises:
         Unreadable: it cannot be understood.
+        Incomplete: entries are left out.
     """
     kind, problem = answer_kind(part.kind), solution.problem
     if isinstance(part.kind, Number) and len(text) <= LONGEST:
@@ -103,7 +123,11 @@ def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
     longest = LONGEST
     if len(text) > LONGEST:  # to write the right answer takes its time
         longest = max(LONGEST, _ROOM * len(kind.write(solution.answers[part.label])))
-    return kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
+    cells = kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
+    names = kind.cells(solution.answers[part.label])
+    if len(cells) < len(names):
+        raise Incomplete([name for name in names if name not in cells], cells)
+    return cells
 
 
 def _refuse_other_quantity(text: str, ask: str) -> None:
@@ -134,6 +158,16 @@ def part_of(solution: Solution, label: str) -> Part:
     raise KeyError(label)
 
 
+def _partly(solution: Solution, part: Part, incomplete: Incomplete) -> Verdict:
+    """The judgement of an answer that leaves entries out: they are wrong ones."""
+    cells = incomplete.cells
+    key = answer_kind(part.kind).cells(solution.answers[part.label])
+    wrong = wrong_cells(cells, key)
+    says = _says_wrong([name if name in cells else f"{name} (left out)" for name in wrong], len(key))
+    earned = credit(part.kind, len(key), len(wrong))
+    return Verdict(Outcome.WRONG, says, earned, _read(cells), wrong_cells=wrong, missing=str(incomplete))
+
+
 def _judge(
     solution: Solution, part: Part, cells: dict[str, Cell], value: Any, read: str, earlier: dict[str, Any]
 ) -> Verdict:
@@ -156,10 +190,11 @@ def _judge(
         cut = all(_is_cut_off(cells[name], key[name]) for name in wrong)
         says = _CUT_OFF if cut else "Right idea; give an exact value or three digits."
         return Verdict(Outcome.CLOSE, says, earned, read, (), named, value)
-    says = "Not right."
-    if named and len(named) < len(key):
-        says = f"Not right at {'; '.join(named)}; the rest is right."
-    return Verdict(Outcome.WRONG, says, earned, read, made, named, value)
+    return Verdict(Outcome.WRONG, _says_wrong(named, len(key)), earned, read, made, named, value)
+
+
+def _says_wrong(named: Sequence[str], cells: int) -> str:
+    return f"Not right at {'; '.join(named)}; the rest is right." if 0 < len(named) < cells else "Not right."
 
 
 def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
@@ -215,6 +250,10 @@ def _content(cell: Cell) -> Any:
     return cell.value if isinstance(cell, Reading) else cell
 
 
+def _read(cells: Mapping[str, Cell]) -> str:
+    return ", ".join(f"{name}: {_echo(cell)}" if name else _echo(cell) for name, cell in cells.items())
+
+
 def _echo(cell: Cell) -> str:
     if isinstance(cell, Reading):
         return cell.echo
@@ -222,8 +261,8 @@ def _echo(cell: Cell) -> str:
 
 
 def wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str, ...]:
-    """The names of the cells that are not right."""
-    return tuple(name for name, content in key.items() if not _cell_is_right(cells[name], content))
+    """The names of the cells that are not right, or left out."""
+    return tuple(name for name, content in key.items() if name not in cells or not _cell_is_right(cells[name], content))
 
 
 def _cell_is_right(cell: Cell, key: Any) -> bool:

@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from rldrill.problems.grammar import refuse_comma
-from rldrill.problems.spelling import Source, Unreadable, quoted
+from rldrill.problems.spelling import Source, quoted
 from rldrill.solutions.answers.lists import ended, filled, unwrapped
 from rldrill.solutions.answers.names import Key, is_end, is_known, keys_named, listed, matches, shown, the_key
 
@@ -61,20 +61,17 @@ class _Item(Struct, frozen=True):
 
 
 def by_name(source: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
-    """What is typed for each key, in the keys' order; None if no keys are typed.
+    """What is typed for each key, in the keys' order; None if no keys are typed. Some keys may be missing.
 
     Raises:
-        Unreadable: a key is unknown, repeated or missing, or a terminal state is given a value.
+        Unreadable: a key is unknown or repeated, or a terminal state is given a value.
     """
     body = _bracketed(unwrapped(source)[0], asked)
     items = _marked(body, asked)
     if items is not None:
         return _by_key(items, asked)
-    for reading in (_tabled, _spaced):
-        found = reading(body, asked)
-        if found is not None and len(found) == len(asked.keys):
-            return {key: found[key] for key in asked.keys}
-    return None
+    found = _tabled(body, asked) or _spaced(body, asked)
+    return {key: found[key] for key in asked.keys if key in found} if found else None
 
 
 def _bracketed(body: Source, asked: Asked[Key]) -> Source:
@@ -216,10 +213,7 @@ def _by_key(items: list[_Item], asked: Asked[Key]) -> dict[Key, Source]:
         if key in found:
             raise item.whole.unreadable(f"{shown(key)} is given twice; give it once.")
         found[key] = item.value
-    for key in asked.keys:
-        if key not in found:
-            raise Unreadable(f"{shown(key)} is missing; give it too.")
-    return {key: found[key] for key in asked.keys}
+    return {key: found[key] for key in asked.keys if key in found}
 
 
 def _tabled(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:

@@ -72,7 +72,7 @@ class Answer(ABC, Generic[KindT]):
 
     @abstractmethod
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        """What was typed, cell by cell.
+        """What was typed, cell by cell; a cell that was left out is not in it.
 
         Args:
             text: what was typed.
@@ -161,11 +161,9 @@ class NumbersAnswer(Answer[parts.Numbers]):
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        return dict(
-            self.cells(
-                read_vector(text, len(self.kind.entries), allowed.parameters, self.kind.entries, allowed.longest)
-            )
-        )
+        entries = self.kind.entries
+        read = read_vector(text, len(entries), allowed.parameters, entries, allowed.longest)
+        return {name: reading for name, reading in self.cells(read).items() if reading is not None}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return tuple(cells.values())
@@ -240,7 +238,8 @@ class ValuesAnswer(Answer[parts.Values]):
         return {self._name(key): value[key] for key in self.kind.keys}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        return dict(self.cells(read_table(text, self.kind.keys, allowed.parameters, allowed.ends, allowed.longest)))
+        read = read_table(text, self.kind.keys, allowed.parameters, allowed.ends, allowed.longest)
+        return {self._name(key): reading for key, reading in read.items()}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return {key: cells[self._name(key)] for key in self.kind.keys}

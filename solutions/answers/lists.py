@@ -8,6 +8,7 @@ from rldrill.problems.notation import FUNCTIONS
 from rldrill.problems.spelling import Source
 
 _TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?\s*[Tt⊤]\s*\}?|ᵀ|\.T|\.?')$")
+_NOTHING = re.compile(r"[-–—?…]?")
 _MIXED = re.compile(r"[0-9]+\s+[0-9]+\s*/\s*[0-9]+(?![0-9.])")
 
 
@@ -61,6 +62,11 @@ def entries_of(source: Source, spaced: bool) -> list[Source]:
 def ended(entry: Source) -> Source:
     """An entry without a comma behind it."""
     return entry.part(0, len(entry.text) - 1) if entry.text.endswith(",") else entry
+
+
+def left_out(entry: Source) -> bool:
+    """Whether nothing is typed for an entry, or a sign for nothing."""
+    return _NOTHING.fullmatch(entry.text) is not None
 
 
 def filled(pieces: list[Source]) -> list[Source]:

@@ -11,6 +11,7 @@ from rldrill.solutions.answers.keyed import Asked, by_name, in_order
 from rldrill.solutions.answers.lists import (
     entries_of,
     filled,
+    left_out,
     nested_rows,
     plain_rows,
     untransposed,
@@ -96,8 +97,8 @@ def read_vector(
     parameters: Sequence[str] = (),
     names: Sequence[str] = (),
     longest: int = LONGEST,
-) -> tuple[Reading, ...]:
-    """Read a vector: ``1, 2`` or ``[1 2]`` or ``(1; 2)``, or by name: ``mu: 1, Sigma: 2``.
+) -> tuple[Reading | None, ...]:
+    """Read a vector: ``1, 2`` or ``[1 2]`` or ``(1; 2)``, or by name: ``mu: 1, Sigma: 2``; None for what is left out.
 
     Args:
         text: what was typed.
@@ -111,28 +112,36 @@ def read_vector(
     """
     source = clean(text, longest)
 
-    def vector(member: Source) -> tuple[Reading, ...]:
+    def vector(member: Source) -> tuple[Reading | None, ...]:
         return _vector(member, length, parameters, names)
 
     body = _right_side(source)
     if length != 1 and body.has("=≈") and len(_pieces(body, length)) == 1:
-        return _forms(source, vector, tuple)  # (1/4, 2) = (0.25, 2)
+        return _forms(source, vector, _given)  # (1/4, 2) = (0.25, 2)
     return vector(source)
 
 
-def _vector(source: Source, length: int | None, parameters: Sequence[str], names: Sequence[str]) -> tuple[Reading, ...]:
+def _given(entries: Iterable[Reading | None]) -> list[Reading]:
+    return [entry for entry in entries if entry is not None]
+
+
+def _vector(
+    source: Source, length: int | None, parameters: Sequence[str], names: Sequence[str]
+) -> tuple[Reading | None, ...]:
     entries = _pieces(source, length)
     if len(entries) == 1 or not all(_LABEL.match(entry.text) for entry in entries[1:]):
         source = _right_side(source)  # R = 1, 2
         entries = _pieces(source, length)
     entries = _unlabelled(entries, names)  # R_0 = 1, R_1 = 2
     most = max(_ENTRIES, length or 0)
-    readings = _numbers(entries, parameters, "entry {}".format if len(entries) != 1 else None, most=most)
-    if length is not None and len(readings) != length:
+    given = [index for index, entry in enumerate(entries) if not left_out(entry)] or range(len(entries))
+    place = (lambda i: f"entry {given[i - 1] + 1}") if len(entries) != 1 else None
+    readings = dict(zip(given, _numbers([entries[i] for i in given], parameters, place, most=most), strict=True))
+    if length is not None and len(entries) != length:
         raise source.unreadable(
             f"{_count(len(readings))} read, {length} {_are(length)} needed.{_comma(source, len(readings), length)}"
         )
-    return readings
+    return tuple(readings.get(index) for index in range(len(entries)))
 
 
 def _pieces(source: Source, length: int | None) -> list[Source]:
@@ -211,6 +220,8 @@ def read_table(
 ) -> dict[Key, Reading]:
     """Read a number for each key: ``cool: 3.5, warm: 2.5``, or the numbers alone in the keys' order.
 
+    A key that is left out is not in what is read.
+
     Args:
         text: what was typed.
         keys: the states, or the pairs of state and action, that each need a number.
@@ -219,7 +230,7 @@ def read_table(
         longest: the most characters that are read.
 
     Raises:
-        Unreadable: a key is unknown, repeated or missing, or its number cannot be read.
+        Unreadable: a key is unknown or repeated, or its number cannot be read.
     """
     if len(keys) == 1 and (reading := plain(text)) is not None:
         return {keys[0]: reading}
@@ -236,7 +247,8 @@ def read_table(
             needed = f"{len(keys)} {_are(len(keys))} needed: {listed(map(shown, keys))}."
             raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), len(keys))}")
     arithmetic = Arithmetic()
-    return {key: _numbers([entry], parameters, partial(_place, key), arithmetic)[0] for key, entry in found.items()}
+    given = {key: entry for key, entry in found.items() if not left_out(entry)} or found
+    return {key: _numbers([entry], parameters, partial(_place, key), arithmetic)[0] for key, entry in given.items()}
 
 
 def _place(key: str | tuple[str, str], _: int) -> str:
@@ -269,10 +281,11 @@ def read_words(
         longest: the most characters that are read.
 
     Returns:
-        The action of each state, or several that are said to be equally good: ``cool: E or S``.
+        The action of each state, or several that are said to be equally good: ``cool: E or S``; none of a state that
+        is left out.
 
     Raises:
-        Unreadable: a state is unknown, repeated or missing, or its action is not allowed.
+        Unreadable: a state is unknown or repeated, or its action is not allowed.
     """
     source = clean(text, longest)
     asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
@@ -286,7 +299,9 @@ def read_words(
         if found is None:
             needed = f"{len(keys)} {_are(len(keys))} needed: {listed(keys)}."
             raise source.unreadable(f"{_count(len(words), 'word')} read, {needed}")
-    return {key: the_options(_last_form(word), key, options[key]) for key, word in found.items()}
+    given = {key: word for key, word in found.items() if _is_option(word.text, options[key]) or not left_out(word)}
+    given = given or found
+    return {key: the_options(_last_form(word), key, options[key]) for key, word in given.items()}
 
 
 def _is_option(word: str, allowed: Sequence[str]) -> bool:
@@ -429,7 +444,7 @@ def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
         if index in placed:
             raise entry.unreadable(f"Entry {index + 1} is given twice; give every entry once.")
         placed[index] = value
-    return [placed[index] for index in sorted(placed)]
+    return [placed.get(index, Source("")) for index in range(len(names))]
 
 
 def _forms(source: Source, read: Callable[[Source], Read], numbers: Callable[[Read], Iterable[Reading]]) -> Read:

@@ -409,6 +409,9 @@ _CLOSE = "Right idea; give an exact value or three digits."
         ("a: 1.34, b: 8/3, c: 9", Outcome.WRONG, "Not right at a; c; the rest is right.", ("a", "c"), Fraction(1, 3)),
         ("a: 9, b: 8/3, c: 3", Outcome.WRONG, "Not right at a; the rest is right.", ("a",), Fraction(2, 3)),
         ("a: 9, b: 9, c: 9", Outcome.WRONG, "Not right.", ("a", "b", "c"), 0),
+        ("a: 4/3, c: 3", Outcome.WRONG, "Not right at b (left out); the rest is right.", ("b",), Fraction(2, 3)),
+        ("4/3, , 9", Outcome.WRONG, "Not right at b (left out); c; the rest is right.", ("b", "c"), Fraction(1, 3)),
+        ("a: 9", Outcome.WRONG, "Not right.", ("a", "b", "c"), 0),
     ],
 )
 def test_a_table_is_judged_entry_by_entry(
@@ -416,3 +419,32 @@ def test_a_table_is_judged_entry_by_entry(
 ) -> None:
     verdict = judge(problem("policy-value", mdp={"transitions": _LOOPS}, gamma="1/2"), "a", text)
     assert (verdict.outcome, verdict.says, verdict.wrong_cells, verdict.credit) == (outcome, says, wrong, credit)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("a: 4/3, c: 3", "b is missing; give it too."),
+        ("b: 8/3", "a and c are missing; give them too."),
+        ("a: 4/3, b: 8/3, c: 3", ""),
+    ],
+)
+def test_where_one_may_type_again_what_is_left_out_is_asked_for(text: str, says: str) -> None:
+    verdict = judge(problem("policy-value", mdp={"transitions": _LOOPS}, gamma="1/2"), "a", text)
+    assert verdict.missing == says
+    assert (verdict.value is None) == bool(says)  # nothing later goes on from half a table
+
+
+def test_of_many_entries_that_are_left_out_three_are_named() -> None:
+    loops = [[state, "x", state, 1, 1] for state in "abcdef"]
+    verdict = judge(problem("policy-value", mdp={"transitions": loops}, gamma="1/2"), "a", "c: 2")
+    assert verdict.missing == "a, b, d and 2 more are missing; give them too."
+    assert verdict.credit == Fraction(1, 6)
+
+
+def test_an_action_that_is_left_out_is_a_wrong_one() -> None:
+    # Of three states with two actions each two are right: 2/3, of which 1/2 is guessed; (2/3 − 1/2)/(1 − 1/2) = 1/3.
+    moves = [[state, action, "end", 1, reward] for state in "abc" for action, reward in (("stay", 1), ("go", 2))]
+    mdp = {"transitions": moves, "terminal": ["end"]}
+    verdict = judge(problem("value-iteration", gamma=1, sweeps=1, mdp=mdp), "b", "a: go, c: go")
+    assert (verdict.outcome, verdict.credit, verdict.wrong_cells) == (Outcome.WRONG, Fraction(1, 3), ("b",))

@@ -351,7 +351,8 @@ def test_entries_of_vectors_may_be_expressions():
         ("x = -1 -0,5", 2, "0,5 has a decimal comma; write 0.5."),
         ("1, 2; 3", 3, "Commas and semicolons are mixed"),
         ("1, foo", 2, "entry 2: 'foo' is not"),
-        ("1,,2", 3, "entry 2: Nothing was typed."),
+        ("1, , foo", 3, "entry 3: 'foo' is not"),
+        (", ,", 2, "entry 1: Nothing was typed."),
         ("[1, 2", 2, "The bracket '[' is not closed"),
         ("[]", 2, "Nothing was typed."),
     ],
@@ -513,13 +514,12 @@ def test_keys_that_are_not_meant(text, keys, fragment):
 @pytest.mark.parametrize(
     ("text", "fragment"),
     [
-        ("cool: 1", "warm is missing"),
         ("cool: 1, cool: 2", "cool is given twice"),
         ("cool: 1, hot: 2", "'hot' is not a key here; the keys are cool, warm."),
         ("cool: 3,5, warm: 2,5", "may have a decimal comma; write '3.5'."),
         ("cool: 1 hot: 2", "holds two keys; put a comma between them"),
         ("cool: foo, warm: 2", "cool: 'foo' is not"),
-        ("cool: , warm: 2", "cool: Nothing was typed."),
+        ("cool: , warm: -", "cool: Nothing was typed."),
         ("1, 2, 3", "3 numbers were read, 2 are needed: cool, warm."),
         ("cool, warm: 3", "'cool' is not understood; write it as cool:"),
         ("a=" * 900, "More than 200 keys were typed"),
@@ -529,9 +529,21 @@ def test_tables_refused(text, fragment):
     assert fragment in refusal(read_table, text, ["cool", "warm"]).message
 
 
+@pytest.mark.parametrize(
+    "text", ["a: 1, c: 3", "a: 1, b: , c: 3", "a: 1, b: ?, c: 3", "a 1, c 3", "1, , 3", "[1, -, 3]", "V = (1, ?, 3)"]
+)
+def test_what_is_left_out_of_a_table_is_not_read(text: str) -> None:
+    assert {key: reading.value for key, reading in read_table(text, ["a", "b", "c"]).items()} == {"a": 1, "c": 3}
+
+
+@pytest.mark.parametrize("text", ["R_0 = 1, R_2 = 3", "1, , 3", "1; ?; 3"])
+def test_what_is_left_out_of_a_vector_is_none(text: str) -> None:
+    read = read_vector(text, 3, names=("R₀", "R₁", "R₂"))
+    assert [reading and reading.value for reading in read] == [1, None, 3]
+
+
 def test_a_key_that_may_be_two_is_refused():
     assert "'AB' may be any of aB, Ab" in refusal(read_table, "AB: 1, ab: 2", ["aB", "Ab"]).message
-    assert "(warm, slow) is missing" in refusal(read_table, "cool fast: 1, cool slow: 2", PAIRS).message
 
 
 ACTIONS = {"cool": ["slow", "fast"], "warm": ["slow", "fast"]}
@@ -555,11 +567,15 @@ def test_policies(text):
     assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": ("fast",), "warm": ("slow",)}
 
 
+@pytest.mark.parametrize("text", ["cool: fast", "cool: fast, warm: ", "fast, -"])
+def test_what_is_left_out_of_a_policy_is_not_read(text: str) -> None:
+    assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": ("fast",)}
+
+
 @pytest.mark.parametrize(
     ("text", "fragment"),
     [
         ("cool: run, warm: slow", "cool: 'run' is not one of slow, fast"),
-        ("cool: fast", "warm is missing"),
         ("fast", "1 word was read, 2 are needed: cool, warm."),
         ("hot: fast, warm: slow", "'hot' is not a key here"),
     ],

@@ -90,12 +90,34 @@ def test_format_1_is_read(tmp_path: Path) -> None:
     ("change", "sentence"),
     [
         (lambda data: data.update(format=3), "its format is 3, and this release reads formats 1 and 2"),
-        (lambda data: data.update(versions=[]), "the manifest is damaged at versions"),
+        (
+            lambda data: data.update(versions=[]),
+            "the manifest is damaged at versions (is empty; it needs at least 1 entry); take it from a backup",
+        ),
+        (
+            lambda data: data["versions"][0].update(code="../x"),
+            "damaged at versions.1.code (must be 1 to 8 capital letters or digits); take it from a backup",
+        ),
+        (lambda data: data.update(title=None), "damaged at title (must be a text; put it in quotes); take it from"),
+        (
+            lambda data: data["versions"][0]["problems"][1].update(id="kalman-filter/1/7@4"),
+            "version A, problem 2: its ID, family and problem are of ",
+        ),
+        (
+            lambda data: data["versions"][0]["problems"][1].update(family="kalman-filter"),
+            "version A, problem 2: its ID, family and problem are of ",
+        ),
+        (
+            lambda data: data["versions"][1]["problems"][0]["problem"].update(family=True),
+            "version B, problem 1: 'family' must be the name of a family in quotes",
+        ),
         (lambda data: data.pop("versions"), "this is no manifest of an exam"),
         (lambda data: data.update(seed="x"), "the manifest is damaged at seed"),
         (lambda data: data["versions"][1].update(code="A"), "version A stands there twice"),
         (
-            lambda data: data["versions"][1]["problems"][0]["problem"].update(family="nothing"),
+            lambda data: data["versions"][1]["problems"][0].update(
+                id=None, family="nothing", problem={"family": "nothing", "given": {}}
+            ),
             "version B, problem 1: There is no family 'nothing'",
         ),
         (lambda data: data["versions"][0]["problems"][1]["problem"].update(given={}), "version A, problem 2: given"),

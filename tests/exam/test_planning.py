@@ -8,7 +8,7 @@ import pytest
 from rldrill.exam import expected
 from rldrill.exam.blueprint import LONGEST_TITLE, Blueprint, Entry
 from rldrill.exam.exam import points_of
-from rldrill.exam.fairness import content, fairness, told
+from rldrill.exam.fairness import Fairness, content, fairness, told
 from rldrill.exam.planning import plan, version_code
 from rldrill.exam.pool import variety
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed, sequence
@@ -217,3 +217,16 @@ def test_of_a_family_with_too_few_answers_another_level_is_taken_where_none_is_a
     free = Blueprint(problems=(Entry(topic=("max-margin",), count=1),), seed=3)
     (one,), (many,) = slots(free, 3, 1), slots(free, 3, 40)
     assert one.variety < 40 <= many.variety
+
+
+@pytest.mark.parametrize(
+    ("minutes", "wanted", "says"),
+    [
+        ((54, 66), 60, ""),  # a tenth less, and a tenth more
+        ((53, 60), 60, "the problems take 53 to 60 minutes, not 60;"),
+        ((67, 67), 60, "the problems take 67 minutes, not 60;"),
+    ],
+)
+def test_minutes_are_missed_by_more_than_a_tenth(minutes: tuple[int, int], wanted: int, says: str) -> None:
+    told = Fairness(0, 0, minutes, 0.0, {}, {}, {}).says_what_is_missed(wanted)
+    assert told == (f"{says} ask for other minutes, or name more topics or problems" if says else "")

@@ -85,6 +85,19 @@ def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, ma
     assert student(report, "Ben").score.points == 3
 
 
+def test_an_entry_that_is_left_out_costs_what_a_wrong_one_costs(tmp_path: Path) -> None:
+    blueprint = Blueprint(problems=(Asked(id="td-zero/2/18", partial=("entries", "all")),), seed=1, decimal_mark=",")
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    # (a) is −6; 16/5; −3, as above, and of 3 points; (b) is medium: 111/25, critical: 47/5.
+    for typed in ("-6; ; -3", "-6; 0; -3", "-6; ; -3,0", "delta_0 = -6, delta_2 = -3"):
+        rows = [("Ann", "", "1", "a", typed), ("Ann", "", "1", "b", "critical: 9,4")]
+        report = graded(tmp_path, rows, Assignment(tmp_path / "exam.json"))
+        a, b = student(report, "Ann").parts
+        assert (a.judged.verdict, a.score.points) == ("wrong", 2), typed
+        assert (b.judged.verdict, b.score.points) == ("wrong", 0)
+        assert b.judged.reason == "Not right at medium (left out); the rest is right."
+
+
 def test_cheating_earns_nothing(tmp_path: Path) -> None:
     path, made = exam(tmp_path, versions=2)
     a, b = made.versions
@@ -93,10 +106,10 @@ def test_cheating_earns_nothing(tmp_path: Path) -> None:
     attempts = {
         b.exercises[0].id: "is of version B",  # the neighbour's paper
         f"td-zero/2/{identity.seed}": "of another level",
-        "return/1/1": "is not in this exam",  # one that is known
+        "return/1/1": "is not in this exam; its problems may be called by their numbers, 1 to 2;",  # one that is known
         "easy.toml": "a file of one's own",
         "../easy.toml": "a file of one's own",
-        f"{str(a.exercises[0].id).split('@')[0]}@99": "of another revision",
+        f"{str(a.exercises[0].id).split('@')[0]}@99": f"revision than the exam's; write {a.exercises[0].id} or 1",
         "3": "the exam has 2 problems",
     }
     rows = [("Eve", "", str(name), "a", "3/2") for name in attempts]
@@ -247,10 +260,10 @@ def test_whoever_is_on_the_roster_and_handed_in_nothing_counts(tmp_path: Path) -
 @pytest.mark.parametrize(
     ("name", "content"),
     [
-        ("b.json", '{"student": "Ben", "answers": {"1": {"a": NaN}}}'),
+        ("b.json", '{"student": "Ben", "answers": {"1": {"a": 1/2}}}'),
         ("b.json", '{\n  "number": 2,\n  "answers": {"1": {"a": "1", "a": "2"}}\n}'),
         ("b.toml", 'student = "Ben"\n[answers.1]\na = "1\n'),
-        ("b.jsonl", '{"student": "Ben", "problem": "1", "part": "a", "answer": NaN}\n'),
+        ("b.jsonl", '{"student": "Ben", "problem": "1", "part": "a", "answer": 1/2}\n'),
     ],
 )
 def test_of_whoever_handed_in_what_cannot_be_read_it_is_not_said_that_they_handed_in_nothing(
@@ -266,6 +279,20 @@ def test_of_whoever_handed_in_what_cannot_be_read_it_is_not_said_that_they_hande
     assert "handed in, could not be read" in ben
     assert cem.endswith("handed in nothing")
     assert "1 handed in nothing" in page.written(report, "reason")
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("b.json", '{"student": "Ben", "answers": {"2": {"a": NaN, "b": "1"}}}'),
+        ("b.toml", 'student = "Ben"\n[answers.2]\na = inf\nb = 1\n'),
+    ],
+)
+def test_what_is_no_number_costs_itself_alone(tmp_path: Path, name: str, content: str) -> None:
+    path, _ = exam(tmp_path)
+    (tmp_path / name).write_text(content, encoding="utf-8")
+    (ben,) = verify([tmp_path / name], Settings(assignment=Assignment(path))).students
+    assert [part.judged.verdict for part in ben.parts] == ["missing", "unreadable", "wrong"]
 
 
 def test_where_a_file_tells_not_whose_it_is_nobody_is_said_to_have_handed_in_nothing(tmp_path: Path) -> None:
@@ -372,3 +399,13 @@ def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
     assert shares == [Fraction(1, 2), 0, 0]
     with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
         plan(Blueprint(problems=(Asked(id="linearise-affine/1/6", partial=("all",)),), seed=7))
+
+
+def test_a_file_that_is_named_twice_is_read_once(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    answers = tmp_path / "a.csv"
+    answers.write_text(f"{HEAD}Ann,,1,a,{keys(made.versions[0])['1', 'a']}\n", encoding="utf-8")
+    for settings in (Settings(), Settings(assignment=Assignment(path))):
+        report = verify([answers, answers], settings)
+        assert [each.remark for each in report.students] == ([""] if settings.assignment else [])
+        assert len(report.refused) == (0 if settings.assignment else 1)  # problem 1 of which exam?

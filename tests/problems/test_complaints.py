@@ -1,12 +1,19 @@
 """What is said of givens of the wrong form: one sentence that names the field and says what to do."""
 
+import json
+import re
+from collections.abc import Iterator
+from copy import deepcopy
 from typing import Annotated, Any, Literal
 
 import pytest
 from pydantic import Field, TypeAdapter, ValidationError
 
+from rldrill.problems.catalogue import families, family
 from rldrill.problems.complaints import nearest, sentence
+from rldrill.problems.errors import FileError
 from rldrill.problems.family import Givens
+from rldrill.solutions.drawing import draw
 
 
 class Inner(Givens):
@@ -46,10 +53,12 @@ LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
         ({"some": {}}, "given.some: is empty; it needs at least 1 entry."),
         ({"some": {"a": 1, "b": 2}}, "given.some: has 2 entries; it may have at most 1 entry."),
         ({"few": 1}, "given.few: must be a list; a single entry, too, stands in brackets: [1]."),
-        ({"few": "ab"}, "given.few: must be a list; a single entry, too, stands in brackets: [ab]."),
+        ({"few": "ab"}, "given.few: must be a list; a single entry, too, stands in brackets: ['ab']."),
+        ({"few": True}, "given.few: must be a list; a single entry, too, stands in brackets: [true]."),
         ({"few": None}, "given.few: must be a list; a single entry, too, stands in brackets: [1, 2]."),
         ({"few": [1, 2, "x"]}, "given.few[3]: 'x' is not a whole number; write one, such as 3."),
         ({"word": "abcdef"}, "given.word: has 6 characters, 5 are the most; shorten it."),
+        ({"word": ""}, "given.word: is empty; write something."),
         ({"word": 3}, "given.word: must be a text; put it in quotes."),
         ({"sign": "a\\b"}, "given.sign: may hold no backslash; take them out."),
         ({"size": 0}, "given.size: 0 is too small; it must be at least 1."),
@@ -94,3 +103,37 @@ def test_the_nearest_name() -> None:
     assert nearest("rewrads", ("rewards", "states")) == " (did you mean rewards?)"
     assert nearest("N", ("n", "a")) == " (did you mean n?)"
     assert nearest("zzz", ("rewards", "states")) == ""
+
+
+#: What no plain sentence holds.
+NOT_PLAIN = re.compile(r"[Ii]nput |should|tuple|dictionary|instance|NoneType|Value error|\bTrue\b|\bNone\b")
+
+
+def places(data: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Where something stands in the givens; of lists the first two entries."""
+    inside = data.items() if isinstance(data, dict) else enumerate(data[:2]) if isinstance(data, list) else ()
+    for key, value in inside:
+        yield (*place, key)
+        yield from places(value, (*place, key))
+
+
+def refusal(name: str, given: Any) -> str:
+    """What is said of givens; nothing if they are taken."""
+    try:
+        family(name).read(given)
+    except FileError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize("name", families())
+def test_whatever_stands_in_a_field_is_refused_in_plain_words(name: str) -> None:
+    given = json.loads(json.dumps(draw(name, 3, 1).problem.data()["given"]))
+    for *way, last in places(given):
+        for other in (None, True, "", [], {}):
+            spoilt = deepcopy(given)
+            inner = spoilt
+            for step in way:
+                inner = inner[step]
+            inner[last] = other
+            assert not NOT_PLAIN.search(refusal(name, spoilt))

@@ -8,6 +8,7 @@ import rldrill
 from rldrill.history.attempts import Attempt
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
+from rldrill.solutions.answers.judging import Outcome
 
 EXERCISE = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})
 TWO_VALUES = {"family": "value-from-action-values", "given": {
@@ -52,6 +53,17 @@ def test_what_cannot_be_read_costs_no_try() -> None:
     assert first.points == 0
     fresh.answer(first, "4")
     assert first.first_time
+
+
+def test_what_is_left_out_is_asked_for_and_costs_no_try() -> None:
+    fresh = Record.of(rldrill.read(TWO_VALUES))
+    (part, *_) = fresh.parts  # V^π is 1 and 6
+    verdict = fresh.answer(part, "s: 1").verdict
+    assert verdict is not None
+    assert (verdict.outcome, verdict.says) == (Outcome.UNREADABLE, "t is missing; give it too.")
+    assert (part.tries, part.points) == (0, 0)
+    fresh.answer(part, "s: 1, t: 6")
+    assert part.first_time
 
 
 def test_the_points_are_those_of_the_answer_that_was_given_last() -> None:

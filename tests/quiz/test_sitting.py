@@ -101,6 +101,18 @@ def test_what_cannot_be_read_is_said_and_asked_again(sitting: Sitting) -> None:
     assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b"]
 
 
+def test_what_is_missing_is_said_and_asked_again_and_counts_as_wrong(tmp_path: Path) -> None:
+    planned = plan(Blueprint(problems=(Entry(id="td-zero/2/18", partial="entries"),), seed=1))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
+    # (a) is −6, 16/5, −3 and of 3 points, (b) medium: 111/25, critical: 47/5 and of one
+    _, text, hand = sit(sitting, "-6, , -3", "-6, 0, -3", "critical: 9.4", "leave")
+    assert "Kept, but what is missing would count as wrong: entry 2 is missing; give it too." in text
+    assert "medium is missing; give it too." in text
+    assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b", "1b"]
+    (graded,) = sitting.graded()
+    assert [part.points for part in graded.parts] == [2, Fraction(1, 2)]
+
+
 def test_ctrl_c_asks(sitting: Sitting) -> None:
     a, b, last = right(sitting)
     assert not sit(sitting, a, KeyboardInterrupt, "leave")[0]
@@ -167,6 +179,7 @@ def test_whatever_is_typed_is_kept_and_counts_as_verify_counts_it(sitting: Sitti
 def test_a_disk_that_takes_nothing_is_told_once_and_the_exam_goes_on(tmp_path: Path) -> None:
     planned = exam()
     sitting = Sitting(planned, planned.versions[0], tmp_path / "gone" / "answers.toml", START)
+    sitting.path.parent.write_text("a file in the way")
     a, b, last = right(sitting)
     handed_in, text, _ = sit(sitting, a, b, last, "yes", width=400)
     assert handed_in
@@ -174,9 +187,9 @@ def test_a_disk_that_takes_nothing_is_told_once_and_the_exam_goes_on(tmp_path: P
     assert "3 of 3 points" in text
     assert f"Your answers could not be written to {sitting.path}." in text
     sitting.handed_in = None
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileExistsError):
         sit(sitting, "leave")
-    sitting.path.parent.mkdir()
+    sitting.path.parent.unlink()
     assert "Kept in" in sit(sitting, "leave")[1]
     assert verify([sitting.path]).score.points == 3
 

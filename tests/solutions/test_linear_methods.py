@@ -245,7 +245,10 @@ def test_systems_that_do_not_fit_are_one_sentence(changed: dict[str, Any], messa
         ({"A": "one"}, "given.A"),
         ({"horizon": 0}, "given.horizon"),
         ({"horizon": 10**9}, "given.horizon: 1000000000 is too large"),
-        ({"start": [0, 0, 0], "horizon": 13}, "horizon is 13; with 3 states and 1 action, 12 is the most"),
+        (
+            {"A": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "horizon": 13},
+            "horizon is 13; with 3 states and 1 action, 12 is the most",
+        ),
         ({"N": 2}, "with the cross term the matrix of all costs"),
         ({"N": [[1, 0]]}, "N is 1×2"),
         ({"Q": [1, 1, 1], "Q_T": 2}, "Q_T is given twice"),

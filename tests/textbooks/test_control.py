@@ -203,7 +203,7 @@ def test_ucb_takes_an_arm_that_was_never_pulled_first() -> None:
 
 
 def test_all_arms_that_are_pulled_are_listed() -> None:
-    with pytest.raises(FileError, match="a pull is given for 'c', which does not occur; known are a and b"):
+    with pytest.raises(FileError, match=r"a pull is given for 'c', which does not occur; leave it out, or correct"):
         solved("bandit", arms=["a", "b"], pulls=[["a", 1], ["c", 0]])
 
 

@@ -35,6 +35,21 @@ def test_exercise_5_5_of_sutton_and_barto() -> None:
     assert solved("batch-td-and-mc", episodes=[episode], gamma=1)["a"] == {"s": fmpq(11, 2)}
 
 
+def test_example_6_2_of_sutton_and_barto() -> None:
+    # The random walk A … E, every value 1/2 in the beginning, α = 1/10: after C, B, A, left only V(A) has changed, by
+    # 1/10·(0 + 0 − 1/2) to 9/20. The values of D and E, where the episode does not come, are given and do not matter.
+    values = dict.fromkeys("ABCDE", "1/2")
+    expected = {"C": fmpq(1, 2), "B": fmpq(1, 2), "A": fmpq(9, 20)}
+    run = {"states": ["C", "B", "A", "left"], "rewards": [0, 0, 0], "terminal": ["left", "right"]}
+    moves = [["C", "B", 0], ["B", "A", 0], ["A", "left", 0]]
+    known = {"values": values, "alpha": "1/10", "gamma": 1}
+    assert solved("td-zero", trajectory=run, **known)["a"] == expected
+    assert solved("td-zero", transitions=moves, terminal=["left", "right"], **known)["a"] == expected
+    # n = 2 from the beginning: 0 + 0 + V(A); n = 3: 0.
+    returns = solved("n-step-return", trajectory=run, values=values, gamma=1, asked=[[0, 2], [0, 3]])
+    assert list(returns.values()) == [fmpq(1, 2), fmpq(0)]
+
+
 def test_the_weights_of_figure_12_2_of_sutton_and_barto() -> None:
     # The weights 1 − λ, (1 − λ)λ, (1 − λ)λ² and, for the full return, λ³ (T − t − 1 = 3), read off one by one:
     # values 1, 0, 0 at the ends of the n-step returns leave one n-step return alone; so does a last reward of 1
