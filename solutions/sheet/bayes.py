@@ -458,6 +458,13 @@ with evaluate(False):
             ArgMaxOver(IntegralOver(of_both(M, theta), theta, Thetas), M, Models),
         ),
     )
+    #: In how many orders as many heads and tails can come.
+    _ORDERS = factorial(heads + tails) / (factorial(heads) * factorial(tails))
+    BINOMIAL = Misconception(
+        "binomial-coefficient",
+        "The tosses are given in their order, so no binomial coefficient counts the orders in which they may come.",
+        when=lambda given: given.heads and given.tails,
+    )
     FIXED_COIN = Formula(
         "coin-likelihood",
         evidence(M),
@@ -466,19 +473,25 @@ with evaluate(False):
         source="Murphy 2012, section 3.3.1",
         hint="Every head has the probability θ, every tail 1 − θ, and the tosses are independent.",
         place=Place.WORKING,
+        misread={
+            BINOMIAL: _ORDERS * theta**heads * (1 - theta) ** tails,
+        },
     )
     BEST_FIT = Misconception(
         "best-fit-for-evidence",
         "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
         when=lambda given: any(not model.certain for model in given.models.values()),
     )
-    EVIDENCE = Formula(
-        "evidence",
-        evidence(M),
+    _MEAN_LIKELIHOOD = (
         factorial(beta_a + beta_b - 1)
         * factorial(beta_a + heads - 1)
         * factorial(beta_b + tails - 1)
-        / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1)),
+        / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1))
+    )
+    EVIDENCE = Formula(
+        "evidence",
+        evidence(M),
+        _MEAN_LIKELIHOOD,
         title="Evidence of a coin",
         source="MacKay 2003, section 3.2, there with a = b = 1",
         hint="Average the likelihood over the prior of θ; with whole a and b that is a quotient of factorials.",
@@ -487,6 +500,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             BEST_FIT: (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
+            BINOMIAL: _ORDERS * _MEAN_LIKELIHOOD,
         },
     )
     POSTERIOR_ODDS = Formula(
@@ -550,9 +564,8 @@ def without_command() -> Formula:
 def uniform_evidence() -> Formula:
     """The evidence of a coin whose θ has a uniform prior."""
     with evaluate(False):
-        return replace(
-            EVIDENCE, right=factorial(heads) * factorial(tails) / factorial(heads + tails + 1), also=(), note=""
-        )
+        right = factorial(heads) * factorial(tails) / factorial(heads + tails + 1)
+        return replace(EVIDENCE, right=right, also=(), note="", misread=EVIDENCE.misread | {BINOMIAL: _ORDERS * right})
 
 
 @cache
@@ -587,12 +600,14 @@ def akaike() -> Formula:
 def few_values() -> Formula:
     """The evidence of a coin whose θ is one of a few values."""
     with evaluate(False):
+        right = SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, count))
         return replace(
             FIXED_COIN,
-            right=SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, count)),
+            right=right,
             title="Evidence of a coin whose θ is one of a few values",
             source="MacKay 2003, section 3.2, with a sum for the integral",
             hint="Weight the likelihood at every possible θ by the prior of that θ, and add.",
+            misread={BINOMIAL: _ORDERS * right},
         )
 
 
