@@ -1,6 +1,7 @@
 """The diagram's equation, applied from the leaves up to the root."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from rldrill.problems.backup_diagrams.backup_diagram_value import Given
@@ -12,6 +13,7 @@ from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.bellman import (
+    ACTIONS_ALIKE,
     BELLMAN_OPTIMALITY_Q,
     BELLMAN_OPTIMALITY_V,
     BELLMAN_Q,
@@ -107,6 +109,11 @@ def total(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"policy": policy}), work)
 
 
+def _weighs(given: Given) -> bool:
+    """Whether the policy takes some action more often than another, and by how much is no question."""
+    return _has_policy(given) and bool(ACTIONS_ALIKE.applies(given))
+
+
 def _discounts(given: Given) -> bool:
     return given.gamma != 1
 
@@ -140,7 +147,7 @@ def one_level(given: Given, work: Work) -> None:
     _answer(given, work, _root(given, work, known | {"gamma": ONE}, _inner(given, work, known)))
 
 
-MISCONCEPTIONS = (maximum, mean, total, forgot_gamma, gamma_on_reward, one_level)
+MISCONCEPTIONS = (maximum, mean, total, replace(ACTIONS_ALIKE, when=_weighs), forgot_gamma, gamma_on_reward, one_level)
 
 
 def oracle(given: Given) -> Answers:

@@ -8,6 +8,7 @@ from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.sheet.bellman import (
+    ACTIONS_ALIKE,
     BELLMAN_V,
     DISCOUNTED_REWARD,
     FORGOT_GAMMA,
@@ -24,6 +25,7 @@ def _comparable(given: Given) -> bool:
 
 MISCONCEPTIONS = (
     FORGOT_POLICY,
+    ACTIONS_ALIKE,
     DISCOUNTED_REWARD,
     replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
     replace(MAX_FOR_MEAN, when=_comparable),

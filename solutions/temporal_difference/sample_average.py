@@ -10,6 +10,7 @@ from rldrill.solutions.sheet.temporal_difference import (
     CONSTANT_STEP_SIZE,
     COUNTED_TWICE,
     EQUAL_WEIGHTS,
+    MEAN_OF_TWO,
     MONTE_CARLO,
     NOT_COUNTED,
     OLDEST_FIRST,
@@ -22,7 +23,7 @@ from rldrill.solutions.sheet.temporal_difference import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (NOT_COUNTED, COUNTED_TWICE, OLDEST_FIRST, ONE_POWER_MORE, EQUAL_WEIGHTS, START_FORGOTTEN)
+MISCONCEPTIONS = (NOT_COUNTED, COUNTED_TWICE, MEAN_OF_TWO, OLDEST_FIRST, ONE_POWER_MORE, EQUAL_WEIGHTS, START_FORGOTTEN)
 
 
 def solve(given: Given, work: Work) -> None:
