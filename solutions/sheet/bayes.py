@@ -130,6 +130,11 @@ def _weighed(given: Any) -> bool:
     return _on_a_line(given) and not isinstance(given.process[0][0], str)
 
 
+def _two_noises(given: Any) -> bool:
+    """Whether motion and sensor have noises that can be taken for each other, and neither is to be found."""
+    return _on_a_line(given) and given.variance is None and given.process != given.sensor
+
+
 def _is_noisy(given: Any) -> bool:
     """Whether the motion has a noise, and no noise is to be found."""
     return given.variance is None and any(any(line) for line in given.process)
@@ -244,6 +249,11 @@ with evaluate(False):
         hint="Put the old mean and the command into the motion model, without noise.",
         place=Place.BEYOND,
     )
+    NOISES_EXCHANGED = Misconception(
+        "noises-exchanged",
+        "A motion adds the variance R of its own noise; Q is that of the sensor's, which only the gain reads.",
+        when=_two_noises,
+    )
     PROCESS_NOISE_FORGOTTEN = Misconception(
         "process-noise-forgotten", "Every motion adds the variance of its own noise to the belief.", when=_is_noisy
     )
@@ -258,6 +268,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             PROCESS_NOISE_FORGOTTEN: Ai * covariance(t - 1) * Transposed(Ai),
+            NOISES_EXCHANGED: Ai * covariance(t - 1) * Transposed(Ai) + Qi,
         },
     )
     VARIANCES_FOR_INVERSES = Misconception(
@@ -275,6 +286,9 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             VARIANCES_FOR_INVERSES: Qi * Pow(covariance_bar(t) + Qi, -1),
+            NOISES_EXCHANGED: covariance_bar(t)
+            * Transposed(Ci)
+            * Pow(Ci * covariance_bar(t) * Transposed(Ci) + Ri, -1),
         },
     )
     GAIN_ON_PREDICTION = Misconception(

@@ -55,6 +55,12 @@ def _given(letter: str) -> Callable[[Any], bool]:
     return lambda given: getattr(given, "known", None) is None or given.letter != letter
 
 
+def _averages_many(given: Any) -> bool:
+    """Whether some state is visited more than twice in all, so that one over the number of visits is not 1/2."""
+    visits = [state for state, _ in given.visits]
+    return given.alpha is None and any(given.counts[state] + visits.count(state) > 2 for state in given.visited)
+
+
 with evaluate(False):
     FORGOT_ALPHA = Misconception(
         "forgot-alpha", "The value moves only a step α towards the λ-return; without α it is replaced by it."
@@ -302,8 +308,8 @@ with evaluate(False):
     COUNTED_TWICE = Misconception("one-over-n-plus-1", "n(s) counts this visit already, so nothing is added to it.")
     MEAN_OF_TWO = Misconception(
         "mean-of-old-and-new",
-        "The old value stands for all returns before, so the new one counts 1/n(s), whatever n(s) is, and not 1/2.",
-        when=lambda given: given.alpha is None and given.beyond_the_second,
+        "The old value stands for all returns before it: the new one counts 1/n(s), which is 1/2 only at the second visit.",
+        when=_averages_many,
     )
     SAMPLE_AVERAGE = Formula(
         "sample-average",
