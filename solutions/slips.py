@@ -1,8 +1,12 @@
 """What slips are made of."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
+from rldrill.solutions.answers.rule import apart
+from rldrill.solutions.exact import NoSolution, NotGiven
+from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.work import Work
 
 
@@ -13,3 +17,29 @@ def right_answers(solve: Callable[[Any, Work], None], given: Any, work: Work) ->
     right = Work(carried=work.carried)
     solve(given, right)
     return list(right.answers.values())
+
+
+def where_it_shows(solve: Callable[[Any, Work], None], misreading: Misconception) -> Misconception:
+    """A misreading, for a solver, where its answers can be told from the right ones: numbers may hide it."""
+
+    def shows(given: Any) -> bool:
+        if not misreading.applies(given):
+            return False
+        right, wrong = Work(), Work(misreading)
+        try:
+            solve(given, right)
+            solve(given, wrong)
+        except (NoSolution, NotGiven):
+            return False
+        return _apart(right.answers, wrong.answers)
+
+    return replace(misreading, when=shows)
+
+
+def _apart(right: Any, wrong: Any) -> bool:
+    """Whether a marker can tell some number from the right one."""
+    if isinstance(right, dict):
+        return any(_apart(number, wrong[key]) for key, number in right.items())
+    if isinstance(right, tuple):
+        return any(map(_apart, right, wrong))
+    return apart(right, wrong)

@@ -20,6 +20,7 @@ from rldrill.solutions.sheet.bellman import (
     BELLMAN_V,
     V_FROM_Q,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 
@@ -147,7 +148,15 @@ def one_level(given: Given, work: Work) -> None:
     _answer(given, work, _root(given, work, known | {"gamma": ONE}, _inner(given, work, known)))
 
 
-MISCONCEPTIONS = (maximum, mean, total, replace(ACTIONS_ALIKE, when=_weighs), forgot_gamma, gamma_on_reward, one_level)
+MISCONCEPTIONS = (
+    maximum,
+    mean,
+    total,
+    where_it_shows(solve, replace(ACTIONS_ALIKE, when=_weighs)),
+    forgot_gamma,
+    gamma_on_reward,
+    one_level,
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -16,20 +16,12 @@ from rldrill.solutions.sheet.bellman import (
     MAX_FOR_MEAN,
 )
 from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION, synchronous
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 
 def _comparable(given: Given) -> bool:
     return not given.find and not given.parameters()
-
-
-MISCONCEPTIONS = (
-    FORGOT_POLICY,
-    ACTIONS_ALIKE,
-    DISCOUNTED_REWARD,
-    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
-    replace(MAX_FOR_MEAN, when=_comparable),
-)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -49,6 +41,15 @@ def solve(given: Given, work: Work) -> None:
         work.say(f"This must equal the given value of {given.state}:")
         value = work.equate(letter, value, exact(given.values[given.state]))
     work.answer(value)
+
+
+MISCONCEPTIONS = (
+    FORGOT_POLICY,
+    where_it_shows(solve, ACTIONS_ALIKE),
+    DISCOUNTED_REWARD,
+    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
+    replace(MAX_FOR_MEAN, when=_comparable),
+)
 
 
 def possible(given: Given) -> bool:

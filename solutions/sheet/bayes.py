@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from sympy import Pow, evaluate, factorial, log
+from sympy import Pow, evaluate, factorial, log, sqrt
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -360,6 +360,13 @@ with evaluate(False):
         "Maximum likelihood divides by n; dividing by n − 1 makes the estimate unbiased.",
         when=lambda given: given.sample is not None,
     )
+    STANDARD_DEVIATION = Misconception(
+        "standard-deviation",
+        "That is the standard deviation; the variance is its square.",
+        when=lambda given: (
+            given.sample is not None and (given.sample.prior is None or given.sample.prior.estimate is None)
+        ),
+    )
     GAUSSIAN_VARIANCE = Formula(
         "gaussian-variance",
         sigma2_hat,
@@ -370,6 +377,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             N_MINUS_1_FOR_N: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
+            STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1)),
         },
     )
     N_FOR_N_MINUS_1 = Misconception(
@@ -387,6 +395,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             N_FOR_N_MINUS_1: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
+            STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1)),
         },
     )
     GAUSSIAN_MAP = Formula(
@@ -579,7 +588,7 @@ def uniform_evidence() -> Formula:
     """The evidence of a coin whose θ has a uniform prior."""
     with evaluate(False):
         right = factorial(heads) * factorial(tails) / factorial(heads + tails + 1)
-        return replace(EVIDENCE, right=right, also=(), note="", misread=EVIDENCE.misread | {BINOMIAL: _ORDERS * right})
+        return replace(EVIDENCE, right=right, also=(), note="", misread={**EVIDENCE.misread, BINOMIAL: _ORDERS * right})
 
 
 @cache

@@ -308,7 +308,7 @@ with evaluate(False):
     COUNTED_TWICE = Misconception("one-over-n-plus-1", "n(s) counts this visit already, so nothing is added to it.")
     MEAN_OF_TWO = Misconception(
         "mean-of-old-and-new",
-        "The old value stands for all returns before it: the new one counts 1/n(s), which is 1/2 only at the second visit.",
+        "The old value stands for all returns before; the new one counts 1/n(s), 1/2 only at the second visit.",
         when=_averages_many,
     )
     SAMPLE_AVERAGE = Formula(

@@ -21,9 +21,8 @@ from rldrill.solutions.sheet.temporal_difference import (
     VISIT_COUNT,
     of_a_visit,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (NOT_COUNTED, COUNTED_TWICE, MEAN_OF_TWO, OLDEST_FIRST, ONE_POWER_MORE, EQUAL_WEIGHTS, START_FORGOTTEN)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -68,6 +67,17 @@ def _weighted(given: Given, work: Work) -> None:
         work.answer(value)
     else:
         find(given, work, value)
+
+
+MISCONCEPTIONS = (
+    NOT_COUNTED,
+    COUNTED_TWICE,
+    where_it_shows(solve, MEAN_OF_TWO),
+    OLDEST_FIRST,
+    ONE_POWER_MORE,
+    EQUAL_WEIGHTS,
+    START_FORGOTTEN,
+)
 
 
 def oracle(given: Given) -> Answers:
