@@ -19,27 +19,27 @@ def right_answers(solve: Callable[[Any, Work], None], given: Any, work: Work) ->
     return list(right.answers.values())
 
 
-def where_it_shows(solve: Callable[[Any, Work], None], misreading: Misconception) -> Misconception:
-    """A misreading, for a solver, where its answers can be told from the right ones: numbers may hide it."""
+def where_it_shows(solve: Callable[[Any, Work], None], mistake: Misconception) -> Misconception:
+    """A mistake, for a solver, where its answers can be told from the right ones: numbers may hide it."""
 
     def shows(given: Any) -> bool:
-        if not misreading.applies(given):
+        if not mistake.applies(given):
             return False
-        right, wrong = Work(), Work(misreading)
+        right, wrong = Work(), Work(mistake)
         try:
             solve(given, right)
-            solve(given, wrong)
+            (mistake.solve or solve)(given, wrong)
         except (NoSolution, NotGiven):
             return False
         return _apart(right.answers, wrong.answers)
 
-    return replace(misreading, when=shows)
+    return replace(mistake, when=shows)
 
 
 def _apart(right: Any, wrong: Any) -> bool:
-    """Whether a marker can tell some number from the right one."""
+    """Whether a marker can tell some answer from the right one."""
     if isinstance(right, dict):
         return any(_apart(number, wrong[key]) for key, number in right.items())
     if isinstance(right, tuple):
         return any(map(_apart, right, wrong))
-    return apart(right, wrong)
+    return right != wrong if isinstance(right, bool | str) else apart(right, wrong)

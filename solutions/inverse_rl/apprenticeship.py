@@ -12,12 +12,14 @@ from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
+    DISTANCE_SQUARED,
     PROJECTION,
     PROJECTION_LENGTH,
     REMAINING,
     REWARD_OF_FEATURES,
     WEIGHTS,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 #: Feature expectations, or weights, by the number of the feature.
@@ -100,7 +102,7 @@ def not_projected(given: Given, work: Work) -> None:
     _project(given, work, lambda _, policy: policy)
 
 
-MISCONCEPTIONS = (not_projected,)
+MISCONCEPTIONS = (not_projected, where_it_shows(solve, DISTANCE_SQUARED))
 
 
 def _vector(values: tuple[Any, ...]) -> Point:

@@ -221,6 +221,12 @@ with evaluate(False):
         hint="Sum over the states that the robot may come from: the probability of each, times that of the way here.",
         place=Place.WORKING,
     )
+    BELIEF_NOT_NORMALISED = Misconception(
+        "not-normalised", "The belief sums to 1: divide by p(z), the sum over all states."
+    )
+    PREDICTION_IGNORED = Misconception(
+        "base-rate-ignored", "What was believed before the measurement counts: it weighs the likelihood of each state."
+    )
     CORRECTION = Formula(
         "correction",
         p(s, z),
@@ -229,6 +235,10 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, table 2.1, line 4",
         hint="Multiply the prediction of each state by its likelihood, then divide by the sum of these.",
         place=Place.WORKING,
+        misread={
+            BELIEF_NOT_NORMALISED: likelihood(z, s) * p_bar(s),
+            PREDICTION_IGNORED: likelihood(z, s) / SumOver(likelihood(z, s1), s1, States),
+        },
     )
     READING = Formula(
         "probability-of-a-reading",

@@ -247,6 +247,10 @@ with evaluate(False):
         sign="←",
         note="For all $s$. Some sheets print $V(s)$ inside the TD error; it belongs to the state that was left, $s_t$.",
     )
+    TRACE_NOT_USED = Misconception(
+        "trace-not-used",
+        "Not all values move alike: each moves in proportion to its own trace, a factor of its update.",
+    )
     TD_LAMBDA_BY_ERROR = Formula(
         "td-lambda-by-error",
         V(s),
@@ -258,6 +262,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             LITERAL_VALUE: V(s) + alpha * e(s) * (r(t + 1) + gamma * V(S(t + 1)) - V(s)),
+            TRACE_NOT_USED: V(s) + alpha * delta(t),
         },
     )
 
