@@ -6,6 +6,7 @@ from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     DESCENT,
+    DISCOUNTED_AGAIN,
     FIRST_RETURN_EVERYWHERE,
     GRADIENT_ASCENT,
     LOG_FORGOTTEN,
@@ -13,11 +14,10 @@ from rldrill.solutions.sheet.policy_gradient import (
     REINFORCE_ESTIMATE,
     REWARD_FOR_RETURN,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.softmax import discounted_returns, episode_gradient, known_run, returns, scores
 from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (FIRST_RETURN_EVERYWHERE, DESCENT, LOG_FORGOTTEN, REWARD_FOR_RETURN)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -32,6 +32,15 @@ def solve(given: Given, work: Work) -> None:
     known |= scores(work, given, known)
     gradient = Vector(work.answer(tuple(work.step(REINFORCE_ESTIMATE, G=G, **known))))
     work.answer(tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
+
+
+MISCONCEPTIONS = (
+    FIRST_RETURN_EVERYWHERE,
+    DESCENT,
+    LOG_FORGOTTEN,
+    REWARD_FOR_RETURN,
+    where_it_shows(solve, DISCOUNTED_AGAIN),
+)
 
 
 def oracle(given: Given) -> Answers:
