@@ -126,7 +126,7 @@ def prior_again(given: Given, work: Work) -> None:
 
 @slip(
     "motion-skipped",
-    "The action moves the belief before the measurement is weighed: the robot may have come from several states.",
+    "An action moves the belief, too: first sum over the states that the robot may come from.",
     when=lambda given: any(event.action for event in given.run),
 )
 def motion_skipped(given: Given, work: Work) -> None:
