@@ -11,6 +11,7 @@ from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.formula.notation import Vpi
 from rldrill.solutions.sheet.bellman import ACTIONS_ALIKE
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 #: How somebody comes to the values of a policy, those of terminal states among them: from the policy's equation, in
@@ -141,6 +142,7 @@ def terminal_value(solve: Solve) -> Misconception:
 
 def equal_chances(solve: Callable[[Any, Work], None]) -> Misconception:
     """The slip of a solver that averages over the actions as if all of them were equally probable."""
-    return slip("equal-chances", ACTIONS_ALIKE.says, when=ACTIONS_ALIKE.when)(
+    made = slip("equal-chances", ACTIONS_ALIKE.says)(
         lambda given, work: solve(given.model_copy(update={"policy": None}), work)
     )
+    return where_it_shows(solve, made)

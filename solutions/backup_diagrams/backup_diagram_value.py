@@ -1,7 +1,6 @@
 """The diagram's equation, applied from the leaves up to the root."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 from rldrill.problems.backup_diagrams.backup_diagram_value import Given
@@ -110,11 +109,6 @@ def total(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"policy": policy}), work)
 
 
-def _weighs(given: Given) -> bool:
-    """Whether the policy takes some action more often than another, and by how much is no question."""
-    return _has_policy(given) and bool(ACTIONS_ALIKE.applies(given))
-
-
 def _discounts(given: Given) -> bool:
     return given.gamma != 1
 
@@ -152,7 +146,7 @@ MISCONCEPTIONS = (
     maximum,
     mean,
     total,
-    where_it_shows(solve, replace(ACTIONS_ALIKE, when=_weighs)),
+    where_it_shows(solve, ACTIONS_ALIKE),
     forgot_gamma,
     gamma_on_reward,
     one_level,

@@ -127,7 +127,6 @@ def prior_again(given: Given, work: Work) -> None:
 @slip(
     "motion-skipped",
     "An action moves the belief, too: first sum over the states that the robot may come from.",
-    when=lambda given: any(event.action for event in given.run),
 )
 def motion_skipped(given: Given, work: Work) -> None:
     """The measurement of every step alone."""

@@ -24,9 +24,8 @@ from rldrill.solutions.sheet.bayes import (
     VARIANCES_FOR_INVERSES,
     without_command,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (GAIN_ON_PREDICTION, VARIANCES_FOR_INVERSES, PROCESS_NOISE_FORGOTTEN, NOISES_EXCHANGED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -106,6 +105,14 @@ def _answered(answer: Answering, mean: Any, covariance: Any) -> tuple[Any, Any]:
     """Mean and variance on a line as one answer, and as matrices to go on with."""
     first, second = answer((mean[0, 0], covariance[0, 0]))
     return matrix([[first]]), matrix([[second]])
+
+
+MISCONCEPTIONS = (
+    GAIN_ON_PREDICTION,
+    VARIANCES_FOR_INVERSES,
+    PROCESS_NOISE_FORGOTTEN,
+    where_it_shows(solve, NOISES_EXCHANGED),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -28,6 +28,7 @@ from rldrill.solutions.sheet.bayes import (
     STANDARD_DEVIATION,
     line_intercept_map,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 
@@ -129,7 +130,7 @@ def prior_ignored(given: Given, work: Work) -> None:
     _fit(given, work, COIN_ML, GAUSSIAN_MEAN, LINE_SLOPE)
 
 
-MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, STANDARD_DEVIATION, prior_ignored)
+MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, where_it_shows(solve, STANDARD_DEVIATION), prior_ignored)
 
 
 def oracle(given: Given) -> Answers:

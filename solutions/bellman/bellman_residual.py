@@ -29,6 +29,7 @@ from rldrill.solutions.sheet.bellman import (
     RESIDUAL_MEAN,
     RESIDUAL_SIGN,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 
@@ -177,7 +178,7 @@ def action_kept(given: Sought, work: Work) -> None:
 MISCONCEPTIONS = (
     replace(RESIDUAL_SIGN, when=_wrong),
     replace(MAX_FOR_MEAN, when=_policy_mixes),
-    ACTIONS_ALIKE,
+    where_it_shows(solve, ACTIONS_ALIKE),
     RESIDUAL_MEAN,
     FORGOT_GAMMA,
     one_state,

@@ -25,8 +25,6 @@ from rldrill.solutions.sheet.control import (
     TRACE_WITHOUT_GAMMA,
     TRACE_WITHOUT_LAMBDA,
 )
-from rldrill.solutions.sheet.temporal_difference import TRACE_NOT_USED
-from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 Pair = tuple[str, str]
@@ -190,7 +188,7 @@ def traces_kept(given: Given, work: Work) -> None:
 
 MISCONCEPTIONS = (
     traces_cut, only_visited, replacing, TRACE_WITHOUT_LAMBDA, TRACE_WITHOUT_GAMMA, traces_kept,
-    ACCUMULATING_ACTION_TRACE, TAKEN_FOR_MAX, NOT_DISCOUNTED, where_it_shows(solve, TRACE_NOT_USED),
+    ACCUMULATING_ACTION_TRACE, TAKEN_FOR_MAX, NOT_DISCOUNTED,
 )  # fmt: skip
 
 

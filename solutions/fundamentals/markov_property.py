@@ -16,6 +16,7 @@ from rldrill.solutions.sheet.fundamentals import (
     RELATIVE_FREQUENCY,
     of_joint,
 )
+from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 _COUNT = "N(s_{t-1}, s_t, s_{t+1})$ is the count"
@@ -193,7 +194,13 @@ def totals_compared(given: Given, work: Work) -> None:
     _conclude(given, work, _matters(whole, _totals(whole)))
 
 
-MISCONCEPTIONS = (JOINT_FOR_CONDITIONAL, HISTORY_LEFT_OUT, COLUMN_FOR_ROW, one_next_state, totals_compared)
+MISCONCEPTIONS = (
+    JOINT_FOR_CONDITIONAL,
+    HISTORY_LEFT_OUT,
+    where_it_shows(solve, COLUMN_FOR_ROW),
+    one_next_state,
+    totals_compared,
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -130,11 +130,6 @@ def _weighed(given: Any) -> bool:
     return _on_a_line(given) and not isinstance(given.process[0][0], str)
 
 
-def _two_noises(given: Any) -> bool:
-    """Whether motion and sensor have noises that can be taken for each other, and neither is to be found."""
-    return _on_a_line(given) and given.variance is None and given.process != given.sensor
-
-
 def _is_noisy(given: Any) -> bool:
     """Whether the motion has a noise, and no noise is to be found."""
     return given.variance is None and any(any(line) for line in given.process)
@@ -262,7 +257,7 @@ with evaluate(False):
     NOISES_EXCHANGED = Misconception(
         "noises-exchanged",
         "A motion adds the variance R of its own noise; Q is that of the sensor's, which only the gain reads.",
-        when=_two_noises,
+        when=_on_a_line,
     )
     PROCESS_NOISE_FORGOTTEN = Misconception(
         "process-noise-forgotten", "Every motion adds the variance of its own noise to the belief.", when=_is_noisy
@@ -373,9 +368,6 @@ with evaluate(False):
     STANDARD_DEVIATION = Misconception(
         "standard-deviation",
         "That is the standard deviation; the variance is its square.",
-        when=lambda given: (
-            given.sample is not None and (given.sample.prior is None or given.sample.prior.estimate is None)
-        ),
     )
     GAUSSIAN_VARIANCE = Formula(
         "gaussian-variance",

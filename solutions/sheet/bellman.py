@@ -1,6 +1,5 @@
 """Section 2 of the sheet: the Bellman equations."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from sympy import Integer, evaluate
@@ -57,11 +56,6 @@ def _rows(given: Any) -> tuple[Transition, ...]:
     return rows
 
 
-def _prefers(policy: Mapping[str, Mapping[str, Any]]) -> bool:
-    """Whether a policy takes some action more often than another of the same state."""
-    return any(len(set(row.values())) > 1 for row in policy.values())
-
-
 with evaluate(False):
     #: What one action earns on average, and the ways to get it wrong; shared by all backups.
     LOOKAHEAD = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * V(s1)), s1, Successors(s, a))
@@ -77,7 +71,6 @@ with evaluate(False):
     ACTIONS_ALIKE = Misconception(
         "unweighted-mean",
         "Each action counts with the probability π(a|s), not all with the same weight.",
-        when=lambda given: _prefers(given.policy or {}),
     )
     DISCOUNTED_REWARD = Misconception(
         "gamma-on-reward", "γ discounts the value of the next state only, not the reward on the way there."

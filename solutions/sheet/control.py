@@ -55,7 +55,6 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
-from rldrill.solutions.sheet.temporal_difference import TRACE_NOT_USED
 
 
 def _starred(head: str) -> Script:
@@ -224,9 +223,6 @@ with evaluate(False):
         hint="Every pair moves by α times the one TD error δ, in proportion to its own trace.",
         sign="←",
         note="For all pairs of state and action, after their traces.",
-        misread={
-            TRACE_NOT_USED: Q(s, a) + alpha * delta(t),
-        },
     )
 
     NOT_DISCOUNTED = Misconception(

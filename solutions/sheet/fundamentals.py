@@ -106,7 +106,6 @@ with evaluate(False):
     COLUMN_FOR_ROW = Misconception(
         "column-for-row",
         "Divide by the total of the history's row: that of the column would give Pr(history|next state).",
-        when=lambda given: given.missing is None and len(given.histories) > 1,
     )
     RELATIVE_FREQUENCY = Formula(
         "relative-frequency",
@@ -217,7 +216,6 @@ with evaluate(False):
     FIRST_OF_ROUND = Misconception(
         "first-of-round",
         "All rewards of a round come again and again, not only the first: each of them belongs to the series.",
-        when=lambda given: len(given.repeated) > 1 and given.known is None,
     )
     GEOMETRIC_SERIES = Formula(
         "geometric-series",

@@ -55,12 +55,6 @@ def _given(letter: str) -> Callable[[Any], bool]:
     return lambda given: getattr(given, "known", None) is None or given.letter != letter
 
 
-def _averages_many(given: Any) -> bool:
-    """Whether some state is visited more than twice in all, so that one over the number of visits is not 1/2."""
-    visits = [state for state, _ in given.visits]
-    return given.alpha is None and any(given.counts[state] + visits.count(state) > 2 for state in given.visited)
-
-
 with evaluate(False):
     FORGOT_ALPHA = Misconception(
         "forgot-alpha", "The value moves only a step α towards the λ-return; without α it is replaced by it."
@@ -247,10 +241,6 @@ with evaluate(False):
         sign="←",
         note="For all $s$. Some sheets print $V(s)$ inside the TD error; it belongs to the state that was left, $s_t$.",
     )
-    TRACE_NOT_USED = Misconception(
-        "trace-not-used",
-        "Not all values move alike: each moves in proportion to its own trace, a factor of its update.",
-    )
     TD_LAMBDA_BY_ERROR = Formula(
         "td-lambda-by-error",
         V(s),
@@ -262,7 +252,6 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             LITERAL_VALUE: V(s) + alpha * e(s) * (r(t + 1) + gamma * V(S(t + 1)) - V(s)),
-            TRACE_NOT_USED: V(s) + alpha * delta(t),
         },
     )
 
@@ -314,7 +303,6 @@ with evaluate(False):
     MEAN_OF_TWO = Misconception(
         "mean-of-old-and-new",
         "The old value stands for all returns before; the new one counts 1/n(s), 1/2 only at the second visit.",
-        when=_averages_many,
     )
     SAMPLE_AVERAGE = Formula(
         "sample-average",

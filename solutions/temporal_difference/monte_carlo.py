@@ -107,7 +107,6 @@ def reward_before(given: Given, work: Work) -> None:
 @slip(
     "stale-values",
     "What is updated a second time starts from the value that its first update left, not from the old one.",
-    when=lambda given: given.revisits and given.visits == "every",
 )
 def stale_values(given: Given, work: Work) -> None:
     """Every update moves by its share of the way from the value before the first one."""

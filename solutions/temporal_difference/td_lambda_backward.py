@@ -18,9 +18,7 @@ from rldrill.solutions.sheet.temporal_difference import (
     REPLACING_TRACE,
     TD_LAMBDA_BACKWARD,
     TD_LAMBDA_BY_ERROR,
-    TRACE_NOT_USED,
 )
-from rldrill.solutions.slips import where_it_shows
 from rldrill.solutions.work import Work
 
 Traces = dict[str, Value]
@@ -56,7 +54,7 @@ def trace_late(given: Given, work: Work) -> None:
     _learn(given, work, lambda _state, before, _after: before)
 
 
-MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING, where_it_shows(solve, TRACE_NOT_USED))
+MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING)
 
 
 def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Traces]) -> None:
