@@ -10,6 +10,7 @@ from rldrill.solutions.endless import Loop, no_value
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.formula.notation import Vpi
+from rldrill.solutions.sheet.bellman import ACTIONS_ALIKE
 from rldrill.solutions.work import Work
 
 #: How somebody comes to the values of a policy, those of terminal states among them: from the policy's equation, in
@@ -136,3 +137,11 @@ def terminal_value(solve: Solve) -> Misconception:
         "A terminal state is worth 0: the reward for reaching it is already earned on the way there.",
         when=lambda given: knowns.pays_at_the_end(given.mdp),
     )(lambda given, work: solve(given, work, _paid_again))
+
+
+def equal_chances(solve: Callable[[Any, Work], None]) -> Misconception:
+    """The slip of a solver that averages over the actions as if all of them were equally probable."""
+    made = slip("equal-chances", ACTIONS_ALIKE.says)(
+        lambda given, work: solve(given.model_copy(update={"policy": None}), work)
+    )
+    return made.where_it_shows()

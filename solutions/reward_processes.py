@@ -9,7 +9,20 @@ from sympy import Expr, Mul, evaluate
 from rldrill.problems.mathematics import Math, Script, mathematics, row, variable
 from rldrill.problems.models import Model
 from rldrill.solutions.formula.formula import Formula
-from rldrill.solutions.formula.notation import MaxOver, P, Quantity, R, SumOver, V, Vpi, a, letter, pi, quantity
+from rldrill.solutions.formula.notation import (
+    MaxOver,
+    MeanOver,
+    P,
+    Quantity,
+    R,
+    SumOver,
+    V,
+    Vpi,
+    a,
+    letter,
+    pi,
+    quantity,
+)
 from rldrill.solutions.sheet.bellman import average
 
 
@@ -50,7 +63,7 @@ def without_actions(formula: Formula) -> Formula:
 
 
 def _read(expression: Expr) -> Expr:
-    if isinstance(expression, SumOver | MaxOver) and expression.index == a:
+    if isinstance(expression, SumOver | MaxOver | MeanOver) and expression.index == a:
         factors = [factor for factor in Mul.make_args(expression.body) if not isinstance(factor, pi)]
         return _read(Mul(*factors) if len(factors) > 1 else factors[0])
     if not expression.args:

@@ -12,7 +12,7 @@ from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.answers.kinds import Answer, answer_kind
 from rldrill.solutions.answers.rule import apart
-from rldrill.solutions.exact import NoSolution, NotGiven
+from rldrill.solutions.exact import NoSolution, NotGiven, NotReal
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
 
@@ -174,9 +174,11 @@ class Solution(Struct, frozen=True, dict=True):
         same: Sequence[Any] = () if carried or misconception.is_slip else self.work.values
         right = () if carried else tuple(self.answers.values())
         try:
-            return run(self.problem, misconception, carried, same, right).answers
-        except (NoSolution, NotGiven):
+            made = run(self.problem, misconception, carried, same, right).answers
+            hidden = misconception.may_hide and not carried and not self.tells_apart(made)
+        except (NoSolution, NotGiven, NotReal):  # such as the logarithm of nothing, which nobody writes down
             return None
+        return None if hidden else made
 
     def following(self, carried: Mapping[str, Any]) -> Mapping[str, Any]:
         """The answers of somebody who goes on correctly from own answers to earlier parts."""

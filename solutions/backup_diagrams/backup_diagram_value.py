@@ -12,6 +12,7 @@ from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.bellman import (
+    ACTIONS_ALIKE,
     BELLMAN_OPTIMALITY_Q,
     BELLMAN_OPTIMALITY_V,
     BELLMAN_Q,
@@ -140,7 +141,15 @@ def one_level(given: Given, work: Work) -> None:
     _answer(given, work, _root(given, work, known | {"gamma": ONE}, _inner(given, work, known)))
 
 
-MISCONCEPTIONS = (maximum, mean, total, forgot_gamma, gamma_on_reward, one_level)
+MISCONCEPTIONS = (
+    maximum,
+    mean,
+    total,
+    ACTIONS_ALIKE.where_it_shows(),
+    forgot_gamma,
+    gamma_on_reward,
+    one_level,
+)
 
 
 def oracle(given: Given) -> Answers:

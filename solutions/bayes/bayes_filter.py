@@ -11,7 +11,14 @@ from rldrill.solutions.exact import ONE, exact, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bayes import CORRECTION, PREDICT, PREDICTION, READING
+from rldrill.solutions.sheet.bayes import (
+    BELIEF_NOT_NORMALISED,
+    CORRECTION,
+    PREDICT,
+    PREDICTION,
+    PREDICTION_IGNORED,
+    READING,
+)
 from rldrill.solutions.work import Note, Work
 
 Belief: TypeAlias = dict[str, Any]
@@ -116,7 +123,20 @@ def prior_again(given: Given, work: Work) -> None:
     _filter(given, work, (_moved, _weighed), afresh=True)
 
 
-MISCONCEPTIONS = (order_swapped, prior_again)
+@slip(
+    "motion-skipped",
+    "An action moves the belief, too: first sum over the states that the robot may come from.",
+)
+def motion_skipped(given: Given, work: Work) -> None:
+    """The measurement of every step alone."""
+    _filter(given, work, (_weighed,))
+
+
+MISCONCEPTIONS = (
+    order_swapped,
+    prior_again,
+    *(each.where_it_shows() for each in (motion_skipped, BELIEF_NOT_NORMALISED, PREDICTION_IGNORED)),
+)
 
 
 def oracle(given: Given) -> Answers:

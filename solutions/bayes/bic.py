@@ -203,7 +203,7 @@ def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -
     return ascii_uppercase[models.index(best)]
 
 
-@slip("largest-wins", "The smallest BIC wins: it is large where the fit is poor or there are many parameters.")
+@slip("largest-wins", "The smallest criterion wins: it is large where the fit is poor or there are many parameters.")
 def largest_wins(given: Given, work: Work) -> None:
     """The model with the larger BIC."""
     _compare(given, work, better=1)

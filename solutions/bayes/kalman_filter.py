@@ -19,13 +19,12 @@ from rldrill.solutions.sheet.bayes import (
     KALMAN_MEAN,
     KALMAN_MOVE_COVARIANCE,
     KALMAN_MOVE_MEAN,
+    NOISES_EXCHANGED,
     PROCESS_NOISE_FORGOTTEN,
     VARIANCES_FOR_INVERSES,
     without_command,
 )
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (GAIN_ON_PREDICTION, VARIANCES_FOR_INVERSES, PROCESS_NOISE_FORGOTTEN)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -105,6 +104,14 @@ def _answered(answer: Answering, mean: Any, covariance: Any) -> tuple[Any, Any]:
     """Mean and variance on a line as one answer, and as matrices to go on with."""
     first, second = answer((mean[0, 0], covariance[0, 0]))
     return matrix([[first]]), matrix([[second]])
+
+
+MISCONCEPTIONS = (
+    GAIN_ON_PREDICTION,
+    VARIANCES_FOR_INVERSES,
+    PROCESS_NOISE_FORGOTTEN,
+    NOISES_EXCHANGED.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

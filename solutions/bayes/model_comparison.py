@@ -12,6 +12,7 @@ from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
     BEST_FIT,
+    BINOMIAL,
     EVIDENCE,
     FIXED_COIN,
     MODEL_COMPARISON,
@@ -22,7 +23,7 @@ from rldrill.solutions.sheet.bayes import (
 )
 from rldrill.solutions.work import Equality, Note, Work
 
-MISCONCEPTIONS = (BEST_FIT,)
+MISCONCEPTIONS = (BEST_FIT, BINOMIAL)
 
 
 def solve(given: Given, work: Work) -> None:

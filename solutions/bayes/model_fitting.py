@@ -25,6 +25,7 @@ from rldrill.solutions.sheet.bayes import (
     PRODUCTS,
     SAMPLE_VARIANCE,
     SQUARES,
+    STANDARD_DEVIATION,
     line_intercept_map,
 )
 from rldrill.solutions.work import Work
@@ -128,7 +129,7 @@ def prior_ignored(given: Given, work: Work) -> None:
     _fit(given, work, COIN_ML, GAUSSIAN_MEAN, LINE_SLOPE)
 
 
-MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, prior_ignored)
+MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, STANDARD_DEVIATION.where_it_shows(), prior_ignored)
 
 
 def oracle(given: Given) -> Answers:

@@ -8,6 +8,7 @@ from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.sheet.bellman import (
+    ACTIONS_ALIKE,
     BELLMAN_V,
     DISCOUNTED_REWARD,
     FORGOT_GAMMA,
@@ -20,14 +21,6 @@ from rldrill.solutions.work import Work
 
 def _comparable(given: Given) -> bool:
     return not given.find and not given.parameters()
-
-
-MISCONCEPTIONS = (
-    FORGOT_POLICY,
-    DISCOUNTED_REWARD,
-    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
-    replace(MAX_FOR_MEAN, when=_comparable),
-)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -47,6 +40,15 @@ def solve(given: Given, work: Work) -> None:
         work.say(f"This must equal the given value of {given.state}:")
         value = work.equate(letter, value, exact(given.values[given.state]))
     work.answer(value)
+
+
+MISCONCEPTIONS = (
+    FORGOT_POLICY,
+    ACTIONS_ALIKE.where_it_shows(),
+    DISCOUNTED_REWARD,
+    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
+    replace(MAX_FOR_MEAN, when=_comparable),
+)
 
 
 def possible(given: Given) -> bool:

@@ -20,6 +20,7 @@ from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, roo
 from rldrill.solutions.policy_values import evaluated
 from rldrill.solutions.reward_processes import fitting
 from rldrill.solutions.sheet.bellman import (
+    ACTIONS_ALIKE,
     BELLMAN_OPTIMALITY_RESIDUAL,
     BELLMAN_RESIDUAL,
     BELLMAN_V,
@@ -177,6 +178,7 @@ def action_kept(given: Sought, work: Work) -> None:
 MISCONCEPTIONS = (
     replace(RESIDUAL_SIGN, when=_wrong),
     replace(MAX_FOR_MEAN, when=_policy_mixes),
+    ACTIONS_ALIKE.where_it_shows(),
     RESIDUAL_MEAN,
     FORGOT_GAMMA,
     one_state,

@@ -4,7 +4,7 @@ from rldrill.problems.bellman.policy_action_value import Given
 from rldrill.problems.document import joined
 from rldrill.solutions import knowns
 from rldrill.solutions.oracle import Answers, swept
-from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
+from rldrill.solutions.policy_values import Evaluation, equal_chances, evaluated, of_states, one_backup, terminal_value
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_Q,
     BELLMAN_V,
@@ -33,7 +33,8 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
 
 
 MISCONCEPTIONS = (
-    one_backup(solve), terminal_value(solve), TRANSPOSED, Q_FORGOT_GAMMA, OWN_VALUE, Q_REWARD_UNWEIGHTED
+    one_backup(solve), terminal_value(solve), equal_chances(solve), TRANSPOSED,
+    Q_FORGOT_GAMMA, OWN_VALUE, Q_REWARD_UNWEIGHTED,
 )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from rldrill.problems.recurrence import predecessors
 from rldrill.solutions import knowns
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, chances, swept, tensors
-from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
+from rldrill.solutions.policy_values import Evaluation, equal_chances, evaluated, of_states, one_backup, terminal_value
 from rldrill.solutions.reward_processes import fitting
 from rldrill.solutions.sheet.bellman import (
     AVERAGE_REWARD,
@@ -58,6 +58,7 @@ MISCONCEPTIONS = (
     terminal_value(solve),
     TRANSPOSED,
     EQUAL_SHARES,
+    equal_chances(solve),
 )
 
 

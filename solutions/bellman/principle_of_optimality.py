@@ -5,11 +5,12 @@ from typing import Any
 
 from rldrill.problems.bellman.principle_of_optimality import Given
 from rldrill.problems.document import joined
-from rldrill.solutions.exact import ZERO, Value, absolute, exact, sign
+from rldrill.solutions.exact import ZERO, NoSolution, Value, absolute, exact, is_zero, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import BEST_WAY_TO, PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
 Rewards = Mapping[tuple[str, str], Value]
@@ -95,9 +96,29 @@ def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value]
 )
 def greedy(given: Given, work: Work) -> None:
     """From every state only the way that earns most at once."""
+    _along(given, work, _earning_most(given))
+
+
+def _earning_most(given: Given) -> Ways:
+    """From every state the way that earns most at once."""
     R = _rewards(given)
-    most = {s: arg_max(after, [R[s, name] for name in after])[:1] for s, after in given.onward.items()}
-    _along(given, work, most)
+    return {s: arg_max(after, [R[s, name] for name in after])[:1] for s, after in given.onward.items()}
+
+
+@slip(
+    "greedy-first-step",
+    "The first step that earns most at once need not be the best one: what can be earned after it counts too.",
+)
+def greedy_first(given: Given, work: Work) -> None:
+    """From the start the way that earns most at once, and only there, although it is not the best elsewhere, too."""
+    R, most = _rewards(given), _earning_most(given)
+    values = _totals(given.goal, given.backwards, given.onward, R, Work())
+    wrong = [
+        state for state, after in given.onward.items() if most[state][0] not in _best(state, after, R, values, work)
+    ]
+    if given.start not in wrong or len(wrong) == 1:
+        raise NoSolution("it is no mistake, or the same as to go that way from every state")
+    _along(given, work, {**given.onward, given.start: most[given.start]})
 
 
 def _through_another(given: Given) -> bool:
@@ -124,7 +145,23 @@ def head_left_out(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"start": given.through}), work)
 
 
-MISCONCEPTIONS = (greedy, TAIL_LEFT_OUT, through_ignored, head_left_out)
+@slip(
+    "way-on-left-out",
+    "That is the best way to the state that is named; what is earned from there to the goal counts too.",
+    when=_through_another,
+)
+def way_on_left_out(given: Given, work: Work) -> None:
+    """The path ends in the state that is named."""
+    values, *between, total = right_answers(solve, given, work)
+    values = work.answer(values)
+    for answer in between:
+        work.answer(answer)
+    if is_zero(onward := values[given.through]):
+        raise NoSolution("nothing is earned there")
+    work.answer(total - onward)
+
+
+MISCONCEPTIONS = (greedy, greedy_first, TAIL_LEFT_OUT, through_ignored, head_left_out, way_on_left_out)
 
 
 def oracle(given: Given) -> Answers:

@@ -11,9 +11,9 @@ from rldrill.solutions.exact import ONE, ZERO, Value, exact
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.sheet.bellman import (
+    ACTIONS_ALIKE,
     MAX_FOR_MEAN,
     MEAN_OF_Q_STAR,
-    PLAIN_MEAN_OF_Q,
     POLICY_FOR_MAX,
     V_FROM_Q,
     V_STAR_FROM_Q,
@@ -22,7 +22,7 @@ from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (
     replace(MAX_FOR_MEAN, when=lambda given: not given.finds),
-    replace(PLAIN_MEAN_OF_Q, when=lambda given: _averages_unevenly(given)),
+    replace(ACTIONS_ALIKE, when=lambda given: _averages_unevenly(given)),
     MEAN_OF_Q_STAR,
     POLICY_FOR_MAX,
 )

@@ -9,7 +9,7 @@ from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, tensors
 from rldrill.solutions.reward_processes import fitting
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, MAX_FOR_MEAN
+from rldrill.solutions.sheet.bellman import ACTIONS_ALIKE, FORGOT_GAMMA, MAX_FOR_MEAN
 from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION, synchronous
 from rldrill.solutions.sweeps import order_slips
 from rldrill.solutions.work import Work
@@ -38,7 +38,12 @@ def _comparable(given: Given) -> bool:
     return not given.parameters() and any(len(actions) > 1 for actions in given.mdp.actions.values())
 
 
-MISCONCEPTIONS = (*order_slips(solve), replace(MAX_FOR_MEAN, when=_comparable), FORGOT_GAMMA)
+MISCONCEPTIONS = (
+    *order_slips(solve),
+    replace(MAX_FOR_MEAN, when=_comparable),
+    ACTIONS_ALIKE.where_it_shows(),
+    FORGOT_GAMMA,
+)
 
 
 def oracle(given: Given) -> Answers:

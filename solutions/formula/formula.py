@@ -6,6 +6,7 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 from sympy import Expr
 
 from rldrill.problems.document import Equation
@@ -33,12 +34,14 @@ class Misconception(Struct, frozen=True, eq=False, dict=True):
         says: one sentence to the person who made it: what is right instead.
         when: for which givens the mistake can be made at all; always, if None.
         solve: the family's solver with the slip in it.
+        may_hide: whether it is not made where the numbers hide it; else such a draw is thrown away.
     """
 
     name: str
     says: str
     when: Callable[[Any], bool] | None = None
     solve: Callable[[Any, Any], None] | None = None
+    may_hide: bool = False
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Misconception) and self.key == other.key
@@ -62,6 +65,10 @@ class Misconception(Struct, frozen=True, eq=False, dict=True):
     def applies(self, given: object) -> bool:
         """Whether the mistake can be made in this problem."""
         return self.when is None or self.when(given)
+
+    def where_it_shows(self) -> "Misconception":
+        """The same, for families whose numbers may hide it: there it is not made, and the draw is not thrown away."""
+        return replace(self, may_hide=True)
 
 
 def slip(

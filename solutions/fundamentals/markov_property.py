@@ -9,6 +9,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import (
+    COLUMN_FOR_ROW,
     HISTORY_LEFT_OUT,
     JOINT_FOR_CONDITIONAL,
     MARKOV_PROPERTY,
@@ -192,7 +193,13 @@ def totals_compared(given: Given, work: Work) -> None:
     _conclude(given, work, _matters(whole, _totals(whole)))
 
 
-MISCONCEPTIONS = (JOINT_FOR_CONDITIONAL, HISTORY_LEFT_OUT, one_next_state, totals_compared)
+MISCONCEPTIONS = (
+    JOINT_FOR_CONDITIONAL,
+    HISTORY_LEFT_OUT,
+    COLUMN_FOR_ROW.where_it_shows(),
+    one_next_state,
+    totals_compared,
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -12,6 +12,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import (
+    FIRST_OF_ROUND,
     GEOMETRIC_SERIES,
     PLUS_FOR_MINUS,
     RETURN_UNROLLED,
@@ -20,8 +21,6 @@ from rldrill.solutions.sheet.fundamentals import (
     TAIL_UNDISCOUNTED,
 )
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (TAIL_FORGOTTEN, TAIL_UNDISCOUNTED, PLUS_FOR_MINUS, ROUND_OF_ONE)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -65,6 +64,15 @@ def _from_start(given: Given, work: Work, read: Callable[[Scalar], Value], tail:
 def _known(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
     rewards = enumerate((*given.first, *given.repeated), 1)
     return {"gamma": read(given.gamma), "r": {time: read(reward) for time, reward in rewards}}
+
+
+MISCONCEPTIONS = (
+    TAIL_FORGOTTEN,
+    TAIL_UNDISCOUNTED,
+    PLUS_FOR_MINUS,
+    ROUND_OF_ONE,
+    FIRST_OF_ROUND.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

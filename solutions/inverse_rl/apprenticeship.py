@@ -12,6 +12,7 @@ from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
+    DISTANCE_SQUARED,
     PROJECTION,
     PROJECTION_LENGTH,
     REMAINING,
@@ -100,7 +101,7 @@ def not_projected(given: Given, work: Work) -> None:
     _project(given, work, lambda _, policy: policy)
 
 
-MISCONCEPTIONS = (not_projected,)
+MISCONCEPTIONS = (not_projected, DISTANCE_SQUARED.where_it_shows())
 
 
 def _vector(values: tuple[Any, ...]) -> Point:

@@ -14,10 +14,14 @@ from rldrill.solutions.endless import Loop, no_expectation
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.inverse_rl import FEATURES_FROM, FEATURES_FROM_START, START_IGNORED, mu_of
+from rldrill.solutions.sheet.inverse_rl import (
+    FEATURES_FROM,
+    FEATURES_FROM_START,
+    START_IGNORED,
+    START_NOT_COUNTED,
+    mu_of,
+)
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (START_IGNORED,)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -38,7 +42,7 @@ def solve(given: Given, work: Work) -> None:
             state: tuple(action for action, chance in given.policy[state].items() if chance) for state in states
         },
         "pi": knowns.policy(given.policy),
-        "phi": knowns.features(given.features),
+        "phi": knowns.Sparse(knowns.features(given.features)),
         "gamma": exact(given.gamma),
     }
     loops = _endless(given, motion, known) if known["gamma"] == ONE else []
@@ -100,6 +104,9 @@ def _resting(
             work.give(FEATURES_FROM, ZERO, component=index, s=state)
             resting[index, state] = ZERO
     return resting
+
+
+MISCONCEPTIONS = (START_IGNORED, START_NOT_COUNTED.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

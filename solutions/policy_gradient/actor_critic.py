@@ -24,6 +24,11 @@ from rldrill.solutions.work import Equality, Work
 
 def solve(given: Given, work: Work) -> None:
     """The critic sees values only, so its whole way comes first; then the actor's, with the errors found."""
+    _act(given, work, _criticise(given, work))
+
+
+def _criticise(given: Given, work: Work) -> dict[str, Any]:
+    """The TD errors and the critic's values; what the actor goes on with."""
     run = given.trajectory
     known = known_run(given) | {"alpha": exact(given.alpha), "beta": exact(given.beta)}
     before = knowns.state_values(given.values, run.terminal)
@@ -38,7 +43,12 @@ def solve(given: Given, work: Work) -> None:
         work.lines += [Equality(V(put_in_name(state)), (values[state],)) for state in earlier]
     values = values | {run.states[last]: work.step(CRITIC, t=last, V=values, **known)}
     work.answer({state: values[state] for state in given.visited})
+    return known
 
+
+def _act(given: Given, work: Work, known: dict[str, Any]) -> None:
+    """The actor's weights, transition by transition."""
+    run = given.trajectory
     for time, (state, action) in enumerate(zip(run.states, run.actions, strict=False)):
         actions = tuple(given.features[state])
         known["pi"] = chances(work, known, state, actions)
@@ -69,7 +79,23 @@ def swapped(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"alpha": given.beta, "beta": given.alpha}), work)
 
 
-MISCONCEPTIONS = (NEXT_VALUE_FORGOTTEN, WEIGHTED_BY_REWARD, swapped)
+@slip(
+    "error-after-the-critic",
+    "Critic and actor learn from the same TD error, that of the values before the critic's update.",
+)
+def error_late(given: Given, work: Work) -> None:
+    """The actor by the errors that are left after the critic's updates."""
+    known = _criticise(given, work)
+    states = known["S"]
+    values = knowns.state_values(given.values, given.trajectory.terminal)
+    left = {}
+    for time in range(known["T"]):
+        values = values | {states[time]: work.value(CRITIC, t=time, V=values, **known)}
+        left[time] = work.value(TD_ERROR, t=time, V=values, **known)
+    _act(given, work, known | {"delta": left})
+
+
+MISCONCEPTIONS = (NEXT_VALUE_FORGOTTEN, WEIGHTED_BY_REWARD, swapped, error_late.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

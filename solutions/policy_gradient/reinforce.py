@@ -6,6 +6,7 @@ from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     DESCENT,
+    DISCOUNTED_AGAIN,
     FIRST_RETURN_EVERYWHERE,
     GRADIENT_ASCENT,
     LOG_FORGOTTEN,
@@ -16,8 +17,6 @@ from rldrill.solutions.sheet.policy_gradient import (
 from rldrill.solutions.softmax import discounted_returns, episode_gradient, known_run, returns, scores
 from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (FIRST_RETURN_EVERYWHERE, DESCENT, LOG_FORGOTTEN, REWARD_FOR_RETURN)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -32,6 +31,15 @@ def solve(given: Given, work: Work) -> None:
     known |= scores(work, given, known)
     gradient = Vector(work.answer(tuple(work.step(REINFORCE_ESTIMATE, G=G, **known))))
     work.answer(tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
+
+
+MISCONCEPTIONS = (
+    FIRST_RETURN_EVERYWHERE,
+    DESCENT,
+    LOG_FORGOTTEN,
+    REWARD_FOR_RETURN,
+    DISCOUNTED_AGAIN.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -11,14 +11,14 @@ from rldrill.solutions.sheet.policy_gradient import (
     BASELINE_FORGOTTEN,
     BASELINE_ON_THE_POLICY,
     DESCENT,
+    DISCOUNTED_AGAIN,
     GRADIENT_ASCENT,
+    LOG_FORGOTTEN,
     REINFORCE_BASELINE,
 )
 from rldrill.solutions.softmax import discounted_returns, episode_gradient, known_run, returns, scores
 from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (BASELINE_ADDED, BASELINE_ON_THE_POLICY, BASELINE_FORGOTTEN, DESCENT)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -33,6 +33,16 @@ def solve(given: Given, work: Work) -> None:
     known |= scores(work, given, known) | {"delta": dict(enumerate(differences))}
     gradient = Vector(work.answer(tuple(work.step(REINFORCE_BASELINE, **known))))
     work.answer(tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
+
+
+MISCONCEPTIONS = (
+    BASELINE_ADDED,
+    BASELINE_ON_THE_POLICY,
+    BASELINE_FORGOTTEN,
+    DESCENT,
+    LOG_FORGOTTEN.where_it_shows(),
+    DISCOUNTED_AGAIN.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -11,11 +11,9 @@ from rldrill.solutions.formula.notation import pi
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.policy_gradient import EXPECTED_ADDED, FEATURES_ALONE
+from rldrill.solutions.sheet.policy_gradient import EXPECTED_ADDED, FEATURES_ALONE, LOG_FORGOTTEN
 from rldrill.solutions.softmax import action_features, by_number, chances, log_gradient, score
 from rldrill.solutions.work import Equality, Work
-
-MISCONCEPTIONS = (FEATURES_ALONE, EXPECTED_ADDED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -48,6 +46,9 @@ def _from_component(given: Given, component: Component, work: Work, known: Mappi
         sides = (in_letters, put_in(in_letters, {"p": p}), chance)
         work.lines.append(Equality(pi(put_in_name(action), put_in_name("s")), sides))
     return found
+
+
+MISCONCEPTIONS = (FEATURES_ALONE, EXPECTED_ADDED, LOG_FORGOTTEN.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

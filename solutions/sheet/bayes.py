@@ -4,7 +4,7 @@ from functools import cache
 from typing import Any
 
 from msgspec.structs import replace
-from sympy import Pow, evaluate, factorial, log
+from sympy import Pow, evaluate, factorial, log, sqrt
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -216,6 +216,12 @@ with evaluate(False):
         hint="Sum over the states that the robot may come from: the probability of each, times that of the way here.",
         place=Place.WORKING,
     )
+    BELIEF_NOT_NORMALISED = Misconception(
+        "not-normalised", "The belief sums to 1: divide by p(z), the sum over all states."
+    )
+    PREDICTION_IGNORED = Misconception(
+        "base-rate-ignored", "What was believed before the measurement counts: it weighs the likelihood of each state."
+    )
     CORRECTION = Formula(
         "correction",
         p(s, z),
@@ -224,6 +230,10 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, table 2.1, line 4",
         hint="Multiply the prediction of each state by its likelihood, then divide by the sum of these.",
         place=Place.WORKING,
+        misread={
+            BELIEF_NOT_NORMALISED: likelihood(z, s) * p_bar(s),
+            PREDICTION_IGNORED: likelihood(z, s) / SumOver(likelihood(z, s1), s1, States),
+        },
     )
     READING = Formula(
         "probability-of-a-reading",
@@ -244,6 +254,11 @@ with evaluate(False):
         hint="Put the old mean and the command into the motion model, without noise.",
         place=Place.BEYOND,
     )
+    NOISES_EXCHANGED = Misconception(
+        "noises-exchanged",
+        "A motion adds the variance R of its own noise; Q is that of the sensor's, which only the gain reads.",
+        when=_on_a_line,
+    )
     PROCESS_NOISE_FORGOTTEN = Misconception(
         "process-noise-forgotten", "Every motion adds the variance of its own noise to the belief.", when=_is_noisy
     )
@@ -258,6 +273,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             PROCESS_NOISE_FORGOTTEN: Ai * covariance(t - 1) * Transposed(Ai),
+            NOISES_EXCHANGED: Ai * covariance(t - 1) * Transposed(Ai) + Qi,
         },
     )
     VARIANCES_FOR_INVERSES = Misconception(
@@ -275,6 +291,9 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             VARIANCES_FOR_INVERSES: Qi * Pow(covariance_bar(t) + Qi, -1),
+            NOISES_EXCHANGED: covariance_bar(t)
+            * Transposed(Ci)
+            * Pow(Ci * covariance_bar(t) * Transposed(Ci) + Ri, -1),
         },
     )
     GAIN_ON_PREDICTION = Misconception(
@@ -346,6 +365,10 @@ with evaluate(False):
         "Maximum likelihood divides by n; dividing by n − 1 makes the estimate unbiased.",
         when=lambda given: given.sample is not None,
     )
+    STANDARD_DEVIATION = Misconception(
+        "standard-deviation",
+        "That is the standard deviation; the variance is its square.",
+    )
     GAUSSIAN_VARIANCE = Formula(
         "gaussian-variance",
         sigma2_hat,
@@ -356,6 +379,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             N_MINUS_1_FOR_N: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
+            STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1)),
         },
     )
     N_FOR_N_MINUS_1 = Misconception(
@@ -373,6 +397,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             N_FOR_N_MINUS_1: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
+            STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1)),
         },
     )
     GAUSSIAN_MAP = Formula(
@@ -458,6 +483,13 @@ with evaluate(False):
             ArgMaxOver(IntegralOver(of_both(M, theta), theta, Thetas), M, Models),
         ),
     )
+    #: In how many orders as many heads and tails can come.
+    _ORDERS = factorial(heads + tails) / (factorial(heads) * factorial(tails))
+    BINOMIAL = Misconception(
+        "binomial-coefficient",
+        "The tosses are given in their order, so no binomial coefficient counts the orders in which they may come.",
+        when=lambda given: given.heads and given.tails,
+    )
     FIXED_COIN = Formula(
         "coin-likelihood",
         evidence(M),
@@ -466,19 +498,25 @@ with evaluate(False):
         source="Murphy 2012, section 3.3.1",
         hint="Every head has the probability θ, every tail 1 − θ, and the tosses are independent.",
         place=Place.WORKING,
+        misread={
+            BINOMIAL: _ORDERS * theta**heads * (1 - theta) ** tails,
+        },
     )
     BEST_FIT = Misconception(
         "best-fit-for-evidence",
         "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
         when=lambda given: any(not model.certain for model in given.models.values()),
     )
-    EVIDENCE = Formula(
-        "evidence",
-        evidence(M),
+    _MEAN_LIKELIHOOD = (
         factorial(beta_a + beta_b - 1)
         * factorial(beta_a + heads - 1)
         * factorial(beta_b + tails - 1)
-        / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1)),
+        / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1))
+    )
+    EVIDENCE = Formula(
+        "evidence",
+        evidence(M),
+        _MEAN_LIKELIHOOD,
         title="Evidence of a coin",
         source="MacKay 2003, section 3.2, there with a = b = 1",
         hint="Average the likelihood over the prior of θ; with whole a and b that is a quotient of factorials.",
@@ -487,6 +525,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             BEST_FIT: (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
+            BINOMIAL: _ORDERS * _MEAN_LIKELIHOOD,
         },
     )
     POSTERIOR_ODDS = Formula(
@@ -550,9 +589,8 @@ def without_command() -> Formula:
 def uniform_evidence() -> Formula:
     """The evidence of a coin whose θ has a uniform prior."""
     with evaluate(False):
-        return replace(
-            EVIDENCE, right=factorial(heads) * factorial(tails) / factorial(heads + tails + 1), also=(), note=""
-        )
+        right = factorial(heads) * factorial(tails) / factorial(heads + tails + 1)
+        return replace(EVIDENCE, right=right, also=(), note="", misread={**EVIDENCE.misread, BINOMIAL: _ORDERS * right})
 
 
 @cache
@@ -587,12 +625,14 @@ def akaike() -> Formula:
 def few_values() -> Formula:
     """The evidence of a coin whose θ is one of a few values."""
     with evaluate(False):
+        right = SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, count))
         return replace(
             FIXED_COIN,
-            right=SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, count)),
+            right=right,
             title="Evidence of a coin whose θ is one of a few values",
             source="MacKay 2003, section 3.2, with a sum for the integral",
             hint="Weight the likelihood at every possible θ by the prior of that θ, and add.",
+            misread={BINOMIAL: _ORDERS * right},
         )
 
 

@@ -68,6 +68,10 @@ with evaluate(False):
     FORGOT_POLICY = Misconception(
         "forgot-policy", "Each action counts with the probability π(a|s) with which the policy takes it."
     )
+    ACTIONS_ALIKE = Misconception(
+        "unweighted-mean",
+        "Each action counts with the probability π(a|s), not all with the same weight.",
+    )
     DISCOUNTED_REWARD = Misconception(
         "gamma-on-reward", "γ discounts the value of the next state only, not the reward on the way there."
     )
@@ -90,6 +94,7 @@ with evaluate(False):
             DISCOUNTED_REWARD: SumOver(pi(a, s) * GAMMA_ON_REWARD, a, Actions(s)),
             FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA_PI, a, Actions(s)),
             MAX_FOR_MEAN: MaxOver(LOOKAHEAD_PI, a, Actions(s)),
+            ACTIONS_ALIKE: MeanOver(LOOKAHEAD_PI, a, Actions(s)),
             TRANSPOSED: SumOver(
                 pi(a, s) * SumOver(P(s1, a, s) * (R(s1, a, s) + gamma * Vpi(s1)), s1, States), a, Actions(s)
             ),
@@ -122,11 +127,6 @@ with evaluate(False):
             OWN_VALUE: SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vpi(s)), s1, Successors(s, a)),
         },
     )
-    PLAIN_MEAN_OF_Q = Misconception(
-        "unweighted-mean",
-        "Each action value counts with the probability π(a|s), not with the same weight.",
-        when=lambda given: any(len(set(row.values())) > 1 for row in given.policy.values()),
-    )
     V_FROM_Q = Formula(
         "v-from-q",
         Vpi(s),
@@ -136,7 +136,7 @@ with evaluate(False):
         hint="Average the action values with the policy's probabilities.",
         misread={
             MAX_FOR_MEAN: MaxOver(Qpi(s, a), a, Actions(s)),
-            PLAIN_MEAN_OF_Q: MeanOver(Qpi(s, a), a, Actions(s)),
+            ACTIONS_ALIKE: MeanOver(Qpi(s, a), a, Actions(s)),
         },
     )
     RESIDUAL_SIGN = Misconception(
@@ -154,6 +154,7 @@ with evaluate(False):
         misread={
             RESIDUAL_SIGN: V(s) - SumOver(pi(a, s) * LOOKAHEAD, a, Actions(s)),
             MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)) - V(s),
+            ACTIONS_ALIKE: MeanOver(LOOKAHEAD, a, Actions(s)) - V(s),
             FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)) - V(s),
         },
     )

@@ -549,6 +549,7 @@ with evaluate(False):
         "pulls-for-time",
         "t is the time of the pull that comes next; the number of pulls so far is one less.",
     )
+    LOG_10_IN_UCB = Misconception("log-base", "The logarithm ln t under the root is natural, to the base e.")
     UCB = Formula(
         "ucb",
         U(a),
@@ -561,6 +562,7 @@ with evaluate(False):
             TIME_FOR_LOG: Q(a) + c * sqrt(t / N(a)),
             OWN_COUNT_FORGOTTEN: Q(a) + c * sqrt(log(t)),
             PULLS_FOR_TIME: Q(a) + c * sqrt(log(t - 1) / N(a)),
+            LOG_10_IN_UCB: Q(a) + c * sqrt(log(t) / log(10) / N(a)),
         },
     )
     UCB_ARM = Formula(

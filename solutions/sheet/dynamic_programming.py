@@ -37,6 +37,7 @@ from rldrill.solutions.formula.notation import (
 )
 from rldrill.solutions.sheet import bellman
 from rldrill.solutions.sheet.bellman import (
+    ACTIONS_ALIKE,
     DISCOUNTED_REWARD,
     FORGOT_GAMMA,
     FORGOT_POLICY,
@@ -91,6 +92,7 @@ with evaluate(False):
             ),
             FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
             MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)),
+            ACTIONS_ALIKE: MeanOver(LOOKAHEAD, a, Actions(s)),
         },
     )
 

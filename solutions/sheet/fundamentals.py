@@ -103,6 +103,10 @@ with evaluate(False):
         "history-left-out-below",
         "Below the line only the rows with the same whole history count, not all rows with the same present state.",
     )
+    COLUMN_FOR_ROW = Misconception(
+        "column-for-row",
+        "Divide by the total of the history's row: that of the column would give Pr(history|next state).",
+    )
     RELATIVE_FREQUENCY = Formula(
         "relative-frequency",
         Pr(S(t + 1), S(t - 1), S(t)),
@@ -115,6 +119,7 @@ with evaluate(False):
             JOINT_FOR_CONDITIONAL: _SEEN
             * Pow(SumOver(SumOver(SumOver(N(h, s, s1), s1, States), s, States), h, States), -1),
             HISTORY_LEFT_OUT: _SEEN * Pow(SumOver(SumOver(N(h, S(t), s1), s1, States), h, States), -1),
+            COLUMN_FOR_ROW: _SEEN * Pow(SumOver(SumOver(N(h, s, S(t + 1)), s, States), h, States), -1),
         },
     )
 
@@ -208,6 +213,10 @@ with evaluate(False):
         "A round of n rewards comes again after n steps, so the series runs in γⁿ, not in γ.",
         when=lambda given: len(given.repeated) > 1,
     )
+    FIRST_OF_ROUND = Misconception(
+        "first-of-round",
+        "All rewards of a round come again and again, not only the first: each of them belongs to the series.",
+    )
     GEOMETRIC_SERIES = Formula(
         "geometric-series",
         G(t),
@@ -219,6 +228,7 @@ with evaluate(False):
         misread={
             PLUS_FOR_MINUS: _FIRST * Pow(1 + gamma**n, -1),
             ROUND_OF_ONE: _FIRST * Pow(1 - gamma, -1),
+            FIRST_OF_ROUND: r(t + 1) * Pow(1 - gamma, -1),
         },
     )
 

@@ -140,6 +140,9 @@ with evaluate(False):
             FEATURES_SUMMED: SumOver(mu_along(j, run), run, Trajectories),
         },
     )
+    START_NOT_COUNTED = Misconception(
+        "start-not-counted", "The sum begins with the features of s₀ itself, undiscounted, not with those of s₁."
+    )
     FEATURES_FROM = Formula(
         "feature-expectations-from",
         mu_of(j, s),
@@ -149,6 +152,12 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 2, with the Bellman equation for V",
         hint="It is a Bellman equation with the feature in place of the reward, one system for every feature.",
         place=Place.BEYOND,
+        misread={
+            START_NOT_COUNTED: gamma
+            * SumOver(
+                pi(a, s) * SumOver(P(s, a, s1) * (phi(j, s1) + mu_of(j, s1)), s1, Successors(s, a)), a, Actions(s)
+            ),
+        },
     )
     START_IGNORED = Misconception(
         "start-ignored",
@@ -251,6 +260,9 @@ with evaluate(False):
         hint="The next reward points from the projected point to the expert.",
         place=Place.BEYOND,
     )
+    DISTANCE_SQUARED = Misconception(
+        "distance-squared", "That is the square of the distance; the length of w is the root of the sum of squares."
+    )
     REMAINING = Formula(
         "remaining-distance",
         remaining,
@@ -259,4 +271,7 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 3.1",
         hint="It is the length of w; the algorithm stops when it is small.",
         place=Place.WORKING,
+        misread={
+            DISTANCE_SQUARED: SumOver(w(i) ** 2, i, Features),
+        },
     )

@@ -154,13 +154,15 @@ with evaluate(False):
         "Each score is weighted by the return from its own step on; rewards before it say nothing about the action.",
         when=_several_steps,
     )
-    LOG_FORGOTTEN = Misconception(
-        "log-forgotten", "It is the gradient of log π that is weighted, not that of π itself: ∇ log π = ∇π/π."
-    )
     REWARD_FOR_RETURN = Misconception(
         "reward-for-return",
         "The score is weighted by the whole discounted return from its step on, not by the next reward alone.",
         when=_several_steps,
+    )
+    DISCOUNTED_AGAIN = Misconception(
+        "discounted-again",
+        "The question leaves out the further factor γᵗ: the return from a step on is not discounted once more.",
+        when=lambda given: given.gamma != 1 and _several_steps(given),
     )
     REINFORCE_ESTIMATE = Formula(
         "reinforce-estimate",
@@ -173,8 +175,8 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             FIRST_RETURN_EVERYWHERE: SumOver(_LOG_GRADIENT * G_t(0), t, _EPISODE),
-            LOG_FORGOTTEN: SumOver(pi(A(t), S(t)) * _LOG_GRADIENT * G_t(t), t, _EPISODE),
             REWARD_FOR_RETURN: SumOver(_LOG_GRADIENT * r(t + 1), t, _EPISODE),
+            DISCOUNTED_AGAIN: SumOver(gamma**t * _LOG_GRADIENT * G_t(t), t, _EPISODE),
         },
     )
     DESCENT = Misconception(
@@ -264,6 +266,9 @@ with evaluate(False):
         "expected-features-added",
         "The expected features are subtracted: the denominator of the softmax enters log π with a minus sign.",
     )
+    LOG_FORGOTTEN = Misconception(
+        "log-forgotten", "The score is the gradient of log π, not that of π itself: ∇ log π = ∇π/π."
+    )
     SCORE_FUNCTION = Formula(
         "score-function",
         score(a, s),
@@ -275,6 +280,7 @@ with evaluate(False):
         misread={
             FEATURES_ALONE: f_vector(s, a),
             EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices),
+            LOG_FORGOTTEN: pi(a, s) * (f_vector(s, a) - SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices)),
         },
     )
 
@@ -353,6 +359,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             BASELINE_ON_THE_POLICY: SumOver((_LOG_GRADIENT - b_of(S(t)) * ones) * G_t(t), t, _EPISODE),
+            DISCOUNTED_AGAIN: SumOver(gamma**t * _LOG_GRADIENT * delta(t), t, _EPISODE),
         },
     )
     ADVANTAGE_SIGN = Misconception(

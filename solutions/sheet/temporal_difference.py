@@ -300,6 +300,10 @@ with evaluate(False):
         when=lambda given: given.visited_before,
     )
     COUNTED_TWICE = Misconception("one-over-n-plus-1", "n(s) counts this visit already, so nothing is added to it.")
+    MEAN_OF_TWO = Misconception(
+        "mean-of-old-and-new",
+        "The old value stands for all returns before; the new one counts 1/n(s), 1/2 only at the second visit.",
+    )
     SAMPLE_AVERAGE = Formula(
         "sample-average",
         V(S(t)),
@@ -312,6 +316,7 @@ with evaluate(False):
         misread={
             NOT_COUNTED: V(S(t)) + Pow(N(S(t)) - 1, -1) * (G(t) - V(S(t))),
             COUNTED_TWICE: V(S(t)) + Pow(N(S(t)) + 1, -1) * (G(t) - V(S(t))),
+            MEAN_OF_TWO: (V(S(t)) + G(t)) * Pow(2, -1),
         },
     )
 

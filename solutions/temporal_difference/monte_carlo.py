@@ -22,13 +22,14 @@ def solve(given: Given, work: Work) -> None:
     _finish(given, work, _returns(given, work))
 
 
-def _finish(given: Given, work: Work, returns: tuple[Value, ...]) -> None:
+def _finish(given: Given, work: Work, returns: tuple[Value, ...], *, stale: bool = False) -> None:
+    """The updates with these returns; ``stale`` ones all start from the values before the first."""
     if isinstance(given, OfStates) and given.known is not None:
-        find_and_finish(given, work, lambda read: _updated(given, work, returns, read))
+        find_and_finish(given, work, lambda read: _updated(given, work, returns, read, stale=stale))
     elif isinstance(given, OfStates):
-        work.answer(_updated(given, work, returns, exact))
+        work.answer(_updated(given, work, returns, exact, stale=stale))
     else:
-        work.answer(_updated_pairs(given, work, returns))
+        work.answer(_updated_pairs(given, work, returns, stale=stale))
 
 
 def _returns(given: Given, work: Work) -> tuple[Value, ...]:
@@ -45,22 +46,28 @@ def _returns(given: Given, work: Work) -> tuple[Value, ...]:
     return carried if end > 1 else (carried,)
 
 
-def _updated_pairs(given: OfActions, work: Work, returns: tuple[Value, ...]) -> dict[tuple[str, str], Value]:
+def _updated_pairs(
+    given: OfActions, work: Work, returns: tuple[Value, ...], *, stale: bool
+) -> dict[tuple[str, str], Value]:
     known = knowns.action_run(given)
+    values = first = known.pop("Q")
     for time in _counted(given, work):
-        new = work.step(TOWARDS_TARGET, t=time, y=dict(enumerate(returns)), **known)
-        known["Q"] = known["Q"] | {given.moves[time][:2]: new}
-    return {pair: known["Q"][pair] for pair in given.updated}
+        pair = given.moves[time][:2]
+        now = first if stale else values
+        new = work.step(TOWARDS_TARGET, t=time, y=dict(enumerate(returns)), Q=now, **known)
+        values = values | {pair: values[pair] + new - now[pair] if stale else new}
+    return {pair: values[pair] for pair in given.updated}
 
 
 def _updated(
-    given: OfStates, work: Work, returns: tuple[Value, ...], read: Callable[[Scalar], Value]
+    given: OfStates, work: Work, returns: tuple[Value, ...], read: Callable[[Scalar], Value], *, stale: bool
 ) -> dict[str, Value]:
     S = dict(enumerate(given.trajectory.states))
-    values = {state: read(value) for state, value in given.values.items()}
+    values = first = {state: read(value) for state, value in given.values.items()}
     for time in _counted(given, work):
-        new = work.step(MONTE_CARLO, t=time, V=values, S=S, G=dict(enumerate(returns)), alpha=read(given.alpha))
-        values = values | {S[time]: new}
+        now = first if stale else values
+        new = work.step(MONTE_CARLO, t=time, V=now, S=S, G=dict(enumerate(returns)), alpha=read(given.alpha))
+        values = values | {S[time]: values[S[time]] + new - now[S[time]] if stale else new}
     return {state: values[state] for state in given.visited}
 
 
@@ -96,7 +103,16 @@ def reward_before(given: Given, work: Work) -> None:
     _finish(given, work, (first, first, *others[:-1]))
 
 
-MISCONCEPTIONS = (other_visits, RECURSION_UNDISCOUNTED, reward_before)
+@slip(
+    "stale-values",
+    "What is updated a second time starts from the value that its first update left, not from the old one.",
+)
+def stale_values(given: Given, work: Work) -> None:
+    """Every update moves by its share of the way from the value before the first one."""
+    _finish(given, work, _returns(given, work), stale=True)
+
+
+MISCONCEPTIONS = (other_visits, RECURSION_UNDISCOUNTED, reward_before, stale_values.where_it_shows())
 
 
 def _before(given: Given, what: Any) -> Scalar:

@@ -10,6 +10,7 @@ from rldrill.solutions.sheet.temporal_difference import (
     CONSTANT_STEP_SIZE,
     COUNTED_TWICE,
     EQUAL_WEIGHTS,
+    MEAN_OF_TWO,
     MONTE_CARLO,
     NOT_COUNTED,
     OLDEST_FIRST,
@@ -21,8 +22,6 @@ from rldrill.solutions.sheet.temporal_difference import (
     of_a_visit,
 )
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (NOT_COUNTED, COUNTED_TWICE, OLDEST_FIRST, ONE_POWER_MORE, EQUAL_WEIGHTS, START_FORGOTTEN)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -67,6 +66,17 @@ def _weighted(given: Given, work: Work) -> None:
         work.answer(value)
     else:
         find(given, work, value)
+
+
+MISCONCEPTIONS = (
+    NOT_COUNTED,
+    COUNTED_TWICE,
+    MEAN_OF_TWO.where_it_shows(),
+    OLDEST_FIRST,
+    ONE_POWER_MORE,
+    EQUAL_WEIGHTS,
+    START_FORGOTTEN,
+)
 
 
 def oracle(given: Given) -> Answers:

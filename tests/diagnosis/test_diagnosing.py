@@ -130,11 +130,10 @@ def test_a_stated_mistake_is_known_made_everywhere_and_made_once(typed: str) -> 
 
 
 def test_a_matrix_in_the_place_of_another_is_told() -> None:
-    # μ̄ = 9 + 5 = 14, Σ̄ = 2 + 4 = 6. With R = 4 for Q = 12 in the gain K = 6/(6 + 4) = 3/5:
-    # μ = 14 + 3/5·(11 − 14) = 61/5 and Σ = (1 − 3/5)·6 = 12/5.
-    line = {"mean": 9, "covariance": 2, "A": 1, "C": 1, "process": 4, "sensor": 12, "steps": [{"u": 5, "z": 11}]}
-    diagnosis = rldrill.read({"family": "kalman-filter", "given": line}).diagnose("61/5, 12/5", part="b")
-    assert diagnosis.sentence == "It looks as if 4 is put in for Q, which is 12 in K₁."
+    # Σ̄ = 3·2·3 + 4 = 22. With A = 3 for Q = 12 in the gain K = 22/(22 + 3) = 22/25.
+    line = {"mean": 9, "covariance": 2, "A": 3, "C": 1, "process": 4, "sensor": 12, "steps": [{"u": 5, "z": 11}]}
+    diagnosis = rldrill.read({"family": "kalman-filter", "given": line}).diagnose("22/25", part="c")
+    assert diagnosis.sentence == "It looks as if 3 is put in for Q, which is 12 in K₁."
 
 
 def test_what_was_found_on_the_way_is_told_from_the_answer() -> None:
