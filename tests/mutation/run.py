@@ -4,7 +4,7 @@ Our own code because of the two known tools mutmut changes only what stands in f
 cosmic-ray runs one and the same command for every change, which here would be the whole suite.
 
     python tests/mutation/run.py --seed 1 -n 100 [--only PATH] [--workers 2] [--timeout 120] [--budget 40]
-        [--coverage FILE] [--json]
+        [--coverage FILE] [--patience 1500] [--json]
 """
 
 import argparse
@@ -15,7 +15,7 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import trial
@@ -96,6 +96,7 @@ def main() -> None:
         "--timeout", type=float, default=120, help="seconds of the processor after which a change counts as noticed"
     )
     parser.add_argument("--budget", type=float, default=40, help="seconds of the processor for the tests of one change")
+    parser.add_argument("--patience", type=float, default=0, help="seconds for the other tests of those that survived")
     parser.add_argument("--coverage", type=Path, metavar="FILE", help="what coverage.py noted of the whole suite")
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
     options = parser.parse_args()
@@ -116,7 +117,7 @@ def main() -> None:
 def tried(
     places: Sequence[tuple[Source, Mutation]], copies: Sequence[Path], paths: Sequence[str], options: argparse.Namespace
 ) -> Iterator[Outcome]:
-    """Choose the tests of every change, make it, and yield the outcomes."""
+    """Choose the tests of every change, make it, and yield the outcomes; what survived meets its other tests last."""
     trial.load()
     trial.copied(ROOT, paths, copies[0])
     ((_, collected),) = trial.run_all([trial.Run(collect_only=True)], copies[:1], _BASELINE_SECONDS)
@@ -130,12 +131,22 @@ def tried(
         trial.Run(choice.tests(source, mutation), source.path, source.changed(mutation), budget=options.budget)
         for source, mutation in places
     ]
-    for done, (_, outcome) in enumerate(outcomes(places, runs, copies, options.timeout), 1):
-        where = f"{outcome.path}:{outcome.line}"
-        print(
-            f"{done:4}/{len(runs)} {outcome.outcome:9} {outcome.seconds:6.1f} s  {where}  {outcome.by}", file=sys.stderr
-        )
+    again = []
+    for number, outcome in outcomes(places, runs, copies, options.timeout):
+        _tell(outcome)
+        if outcome.outcome == "survived" and outcome.tests_run < len(runs[number].tests) and options.patience:
+            again.append(number)
+        else:
+            yield outcome
+    longer = [replace(runs[number], budget=options.patience) for number in again]
+    for _, outcome in outcomes([places[number] for number in again], longer, copies, options.patience * 2):
+        _tell(outcome)
         yield outcome
+
+
+def _tell(outcome: Outcome) -> None:
+    where = f"{outcome.path}:{outcome.line}"
+    print(f"{outcome.outcome:9} {outcome.seconds:6.1f} s  {where}  {outcome.by}", file=sys.stderr)
 
 
 def report(found: Sequence[Outcome], candidates: int, options: argparse.Namespace) -> None:
