@@ -119,7 +119,7 @@ def test_lists_and_tables_are_answers() -> None:
         (lambda _: rldrill.draw("td-zero", seed=True), "seed must be a whole number, not True."),
         (lambda _: rldrill.load(None), "id_or_path must be"),
         (lambda _: rldrill.load("td-zero"), "'td-zero' is neither a problem ID"),
-        (lambda _: rldrill.read(3), "a problem needs 'family' and 'given'"),
+        (lambda _: rldrill.read(3), "the problem: 'family' is missing; a problem needs 'family' and 'given'"),
     ],
 )
 def test_what_is_refused_is_refused_in_one_sentence(

@@ -5,9 +5,9 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from msgspec import Struct
 from reasoning_gym.factory import ProceduralDataset, register_dataset
 
 from rldrill.exercise import Exercise, draw, load
@@ -19,7 +19,8 @@ _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or 
 _LINE = re.compile(r"^\s*(?:\*\*)?\(?([a-z])[):.]+(?:\*\*)?\s*(.+?)\s*$", re.MULTILINE)
 
 
-class Config(Struct):
+@dataclass
+class Config:
     """What the dataset draws.
 
     Args:

@@ -25,6 +25,11 @@ def test_people_in_their_order(tmp_path: Path) -> None:
     assert read_roster(roster(tmp_path, "Number;Name;mail\n17;Lee, Ann;a@b\n04;Jürgen;\n")) == people
 
 
+def test_names_of_sixty_letters_and_numbers_of_thirty_still_fit_the_head_of_a_page(tmp_path: Path) -> None:
+    person = Person("x" * 60, "9" * 30)
+    assert read_roster(roster(tmp_path, f"name,number\n{person.name},{person.number}\n")) == (person,)
+
+
 def test_what_grading_reads_of_spreadsheets_is_read_here_too(tmp_path: Path) -> None:
     people = (Person("Zoé Lee", "0012"),)
     assert read_roster(roster(tmp_path, 'sep=;\r\nname;number\r\nZoe\u0301  Lee;="0012"\r\n')) == people
@@ -47,6 +52,7 @@ def test_what_grading_reads_of_spreadsheets_is_read_here_too(tmp_path: Path) -> 
         (f"name,number\nAnn,{'9' * 20_000_000}\n", "the file is larger than 10 MB"),
         ("name,number\n", "there are 0 people on it"),
         (f"name,number\n{'x' * 61},1\n", "line 2: the name or the number is too long"),
+        (f"name,number\nAnn,{'9' * 31}\n", "line 2: the name or the number is too long"),
     ],
 )
 def test_what_does_not_fit_is_said_with_the_line(text: str, sentence: str, tmp_path: Path) -> None:

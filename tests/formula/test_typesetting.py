@@ -86,6 +86,17 @@ def test_a_1_that_multiplies_a_matrix_keeps_its_place_when_put_in_and_is_then_le
     assert unicode(typeset(reduced(written))) == "2 + 1"
 
 
+def test_a_term_of_zeros_is_left_out_of_the_second_line_be_it_a_number_or_a_matrix() -> None:
+    one, two, zero = (fmpq_mat(1, 1, [number]) for number in (1, 2, 0))
+    square, zeros = fmpq_mat(2, 2, [1, 0, 2, 1]), fmpq_mat(2, 2, [0] * 4)
+    lines = []
+    for turn, spread, noise in ((one, two, zero), (square, square, zeros), (zero, two, one)):
+        known = {"t": 1, "Ai": turn, "covariance": {0: spread}, "Ri": noise}
+        lines.append(unicode(typeset(reduced(put_in(KALMAN_MOVE_COVARIANCE.right, known)))))
+    # (1 0; 2 1)(1 0; 2 1) = (1 0; 4 1), and that times (1 2; 0 1) is (1 2; 4 9).
+    assert lines == ["2", "[1  2 ; 4  9]", "1"]
+
+
 def test_zeros_that_are_given_keep_their_places_and_what_is_not_there_leaves_none() -> None:
     known = {
         "s": "cool", "gamma": fmpq(1, 2), "actions": {"cool": ("slow", "fast")},

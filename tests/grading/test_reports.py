@@ -209,6 +209,13 @@ def test_the_page_stands_alone_and_runs_nothing(report: Report) -> None:
     assert "first reward" in text
 
 
+def test_a_table_has_a_column_for_each_thing_that_is_told(report: Report) -> None:
+    heads = [tables.written(report, feedback).splitlines()[0].split(",") for feedback in FEEDBACK]
+    assert [head[10:] for head in heads] == [
+        [], ["typed", "verdict"], ["typed", "verdict", "reason"], ["typed", "verdict", "reason", "key"]
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize("feedback", FEEDBACK)
 def test_no_more_is_told_than_is_asked_for(report: Report, feedback: str) -> None:
     forms = (data, junit, github, gradescope, tables)
