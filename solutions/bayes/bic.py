@@ -55,7 +55,7 @@ def _compare(given: Given, work: Work, better: int) -> None:
     criteria = {}
     work.recall(formula)
     if given.criterion == "BIC" and (prime_factors := _taken_apart(n)):
-        work.say(f"${prime_factors}$.")
+        work.say(f"${prime_factors}$")
     for name in names:
         logarithm = fit[name] if fit else _logarithm(given, name, work)
         criteria[name] = work.step(formula, M=name, log_likelihood=logarithm, free=free[name], n=n)
@@ -90,7 +90,7 @@ def _logarithm(given: Given, name: str, work: Work) -> Value:
     factor, logarithm = to_sympy(value).as_coeff_Mul()
     if factor < 0 and isinstance(logarithm, sympy.log):
         power = "" if factor == -1 else f"{-factor} "
-        work.say(f'$ln p(D_z|"{name}", θ̂) = ln({shown(model.likelihood)}) = −{power}ln {logarithm.args[0]}$.')
+        work.say(f'$ln p(D_z|"{name}", θ̂) = ln({shown(model.likelihood)}) = −{power}ln {logarithm.args[0]}$')
     return value
 
 
@@ -116,10 +116,10 @@ def _fit(work: Work, data: Data, model: str) -> Value:
             else work.step(COIN_ML, heads=sum(heads.values(), exact(0)), tails=sum(tails.values(), exact(0)))
         )
         theta = dict.fromkeys(heads, share)
-        work.say(f"$θ̂_c = {told(share)}${' for every coin' if several else ''}.")
+        work.say(f"$θ̂_c = {told(share)}${' for every coin' if several else ''}")
     taken_apart = dict.fromkeys(_taken_apart(chance) for share in theta.values() for chance in (share, 1 - share))
     if told_apart := ", ".join(filter(None, taken_apart)):
-        work.say(f"${told_apart}$.")
+        work.say(f"${told_apart}$")
     known = {"heads_of": heads, "tails_of": tails, "theta_of": theta, "coins": tuple(heads)}
     value = work.step(LOG_LIKELIHOOD, M=model, **known)
     if work.lines and isinstance(last := work.lines[-1], Step):
@@ -203,7 +203,7 @@ def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -
     return ascii_uppercase[models.index(best)]
 
 
-@slip("largest-wins", "The smallest BIC wins: it is large where the fit is poor or there are many parameters.")
+@slip("largest-wins", "The smallest criterion wins: it is large where the fit is poor or there are many parameters.")
 def largest_wins(given: Given, work: Work) -> None:
     """The model with the larger BIC."""
     _compare(given, work, better=1)
