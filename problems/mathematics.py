@@ -3,7 +3,8 @@
 Questions write it between ``$`` signs in the sheet's own notation: ``$V(s_{t+1}) = 3/4$``. Greek letters
 stand for themselves, a combining hat makes an accent (``V̂``), ``_`` and ``^`` make scripts, a word of several letters
 or in quotes is set upright,
-``3/4`` is a fraction, ``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
+``3/4`` and ``{…}/{…}`` are fractions, ``√(…)`` is a root, ``∑_i`` a sum (``Σ`` is the letter), ``dθ`` a differential,
+``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
 """
 
 import re
@@ -198,7 +199,7 @@ def signs(math: Math) -> Iterator[str]:
 
 
 _TOKEN = re.compile(
-    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+[\u0302-\u0304]?[₀-₉'′]*)
+    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>d(?=[A-ZΑ-ω](?![^\W\d_]))|[^\W\d_]+[\u0302-\u0304]?[₀-₉'′]*)
     |(?P<space>\s+)|(?P<other>.)""",
     re.VERBOSE,
 )
@@ -257,7 +258,18 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
         inside = row(*items)
         if tokens[end][0] != _OPENING[token]:
             raise ValueError(f"{_OPENING[token]!r} is missing in mathematics")
-        return (inside if token == "{" else Fence(inside, token, _OPENING[token])), end + 1
+        if token != "{":
+            return Fence(inside, token, _OPENING[token]), end + 1
+        if [each[0] for each in tokens[end + 1 : end + 3]] == ["/", "{"]:
+            below, after = _single(tokens, end + 2)
+            return Fraction(inside, below), after
+        return inside, end + 1
+    if token == "√":
+        under, after = _single(tokens, at + 1)
+        return Root(under.body if isinstance(under, Fence) else under), after
+    if token == "∑":
+        index, after = _single(tokens, at + 2)
+        return Big("Σ", index), after
     if match.lastgroup == "quoted":
         return name(token[1:-1]), at + 1
     if match.lastgroup == "number":
