@@ -10,7 +10,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import Equation, joined
 from rldrill.problems.exact import needed, shown
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, sign, simplest, tidy, to_sympy, told
+from rldrill.solutions.exact import NoSolution, Value, exact, near, order, sign, simplest, tidy, to_sympy, told
 from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
@@ -191,7 +191,7 @@ def _border(given: Given, work: Work, better: int) -> None:
 
 def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
     name = given.criterion
-    numbers = [f"{name}({model}) ≈ {float(enclosure(value).mid()):.4g}" for model, value in criteria.items()]
+    numbers = [f"{name}({model}) {near(value, 4)}" for model, value in criteria.items()]
     two = len(numbers) == 2
     if any(isinstance(value, sympy.Expr) for value in criteria.values()):
         work.say(f"In numbers, {joined(numbers)}.")
