@@ -149,7 +149,13 @@ def listed(items: Iterable[Math], separator: str = ",") -> Math:
 
 
 def name(text: str) -> Glyph:
-    """The name of a state or an action: one letter (with digits, primes) is a variable, more is a word."""
+    """The name of a state or an action: a letter (with digits, primes) is a variable, what begins with a capital or is
+    longer is a word, as it is in tables and sentences."""
+    return word(text) if re.match(r"[A-Z]", text) else letters(text)
+
+
+def letters(text: str) -> Glyph:
+    """Letters in mathematics: one (with digits, primes) is a variable, more are a word."""
     return variable(text) if re.fullmatch(r"[^\W\d_][₀-₉′]*", text) else word(text)
 
 
@@ -277,9 +283,9 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
     if match.lastgroup == "letters":
         plain = normalize("NFD", token)  # ā may be one character or two
         if plain[-1] in _MARKS and (len(plain) == 2 or plain == token):
-            return Accent(name(plain[:-1]), _MARKS[plain[-1]]), at + 1
+            return Accent(letters(plain[:-1]), _MARKS[plain[-1]]), at + 1
     if match.lastgroup == "letters":
-        return name(token.replace("'", "′")), at + 1
+        return letters(token.replace("'", "′")), at + 1
     if token == "⊤":
         return word("T"), at + 1
     if token in _RELATIONS:
