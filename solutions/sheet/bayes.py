@@ -521,7 +521,7 @@ with evaluate(False):
     BIC_SIGN = Misconception(
         "sign", "The log-likelihood is multiplied by −2, so that a better fit makes the BIC smaller."
     )
-    BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs log n, not n.")
+    BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs ln n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
     BIC = Formula(
         "bic",
