@@ -69,7 +69,7 @@ def in_costs(states: int) -> str:
     """How a working in values of P reads for somebody who learnt it in costs."""
     return (
         f"$P_t$ is the {'coefficient' if states == 1 else 'matrix'} of the value; in the cost-to-go convention it is "
-        "$S_t = −P_t$, and the gain, which stays the same, is $L_t = (R_t + B_t^⊤ S_{t+1} B_t)^{−1} B_t^⊤ S_{t+1} A_t$."
+        "$S_t = −P_t$, and the gain is $L_t = (R_t + B_t^⊤ S_{t+1} B_t)^{−1} B_t^⊤ S_{t+1} A_t$."
     )
 
 
