@@ -3,7 +3,8 @@
 Questions write it between ``$`` signs in the sheet's own notation: ``$V(s_{t+1}) = 3/4$``. Greek letters
 stand for themselves, a combining hat makes an accent (``V̂``), ``_`` and ``^`` make scripts, a word of several letters
 or in quotes is set upright,
-``3/4`` is a fraction, ``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
+``3/4`` and ``{…}/{…}`` are fractions, ``√(…)`` is a root, ``∑_i`` a sum (``Σ`` is the letter), ``dθ`` a differential,
+``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
 """
 
 import re
@@ -139,7 +140,13 @@ def listed(items: Iterable[Math], separator: str = ",") -> Math:
 
 
 def name(text: str) -> Glyph:
-    """The name of a state or an action: one letter (with digits, primes) is a variable, more is a word."""
+    """The name of a state or an action: a letter (with digits, primes) is a variable, what begins with a capital or is
+    longer is a word, as it is in tables and sentences."""
+    return word(text) if re.match(r"[A-Z]", text) else letters(text)
+
+
+def letters(text: str) -> Glyph:
+    """Letters in mathematics: one (with digits, primes) is a variable, more are a word."""
     return variable(text) if re.fullmatch(r"[^\W\d_][₀-₉′]*", text) else word(text)
 
 
@@ -189,7 +196,7 @@ def signs(math: Math) -> Iterator[str]:
 
 
 _TOKEN = re.compile(
-    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+[\u0302-\u0304]?[₀-₉'′]*)
+    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>d(?=[A-ZΑ-ω](?![^\W\d_]))|[^\W\d_]+[\u0302-\u0304]?[₀-₉'′]*)
     |(?P<space>\s+)|(?P<other>.)""",
     re.VERBOSE,
 )
@@ -258,7 +265,17 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
     match = tokens[at]
     token = match[0]
     if token in _OPENING:
-        return _fenced(tokens, at, _OPENING[token])
+        inside, end = _fenced(tokens, at, _OPENING[token])
+        if token == "{" and [each[0] for each in tokens[end : end + 2]] == ["/", "{"]:
+            below, end = _single(tokens, end + 1)
+            return Fraction(inside, below), end
+        return inside, end
+    if token == "√":
+        under, after = _single(tokens, at + 1)
+        return Root(under.body if isinstance(under, Fence) else under), after
+    if token == "∑":
+        index, after = _single(tokens, at + 2)
+        return Big("Σ", index), after
     if match.lastgroup == "quoted":
         return name(token[1:-1]), at + 1
     if match.lastgroup == "number":
@@ -266,9 +283,9 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
     if match.lastgroup == "letters":
         plain = normalize("NFD", token)  # ā may be one character or two
         if plain[-1] in _MARKS and (len(plain) == 2 or plain == token):
-            return Accent(name(plain[:-1]), _MARKS[plain[-1]]), at + 1
+            return Accent(letters(plain[:-1]), _MARKS[plain[-1]]), at + 1
     if match.lastgroup == "letters":
-        return name(token.replace("'", "′")), at + 1
+        return letters(token.replace("'", "′")), at + 1
     if token == "⊤":
         return word("T"), at + 1
     if token in _RELATIONS:

@@ -73,5 +73,5 @@ def terminal_note(terminal: tuple[str, ...]) -> tuple[Paragraph, ...]:
     if not terminal:
         return ()
     if len(terminal) == 1:
-        return (Paragraph(f"An episode ends in {terminal[0]}, a terminal state, whose value is $0$."),)
+        return (Paragraph(f"An episode ends in the terminal state {terminal[0]}, whose value is $0$."),)
     return (Paragraph(f"Episodes end in {joined(list(terminal))}, terminal states, whose values are $0$."),)

@@ -12,7 +12,7 @@ import sympy
 from flint import arb, ctx, fmpq
 from sympy.core.sympify import converter
 
-from rldrill.problems.exact import Logarithm, Parameter, Root, Weight
+from rldrill.problems.exact import Logarithm, Parameter, Root, Weight, needed
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import surds
 from rldrill.solutions.closed_forms import ball, fraction, rational
@@ -413,3 +413,9 @@ def decimal(value: Value, digits: int = 6) -> str | None:
         close = to_sympy(value).evalf(digits + 10)
     number = float(close)
     return f"{number:.{digits}g}" if isfinite(number) else f"{close:.{digits}g}"
+
+
+def near(value: Value, digits: int) -> str:
+    """The value as a decimal with the relation to it, in mathematics: = 0.125, but ≈ 0.3333."""
+    written = needed(decimal(value, digits))
+    return f"{'=' if value == exact(Fraction(written)) else '≈'} {written}"

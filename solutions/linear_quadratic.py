@@ -71,7 +71,7 @@ def cost_to_go(solve: Callable[[Any, Work], None], values: Callable[[Any], slice
 
     @slip(
         "cost-to-go-given",
-        "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.",
+        "That is S of the cost-to-go sᵀSs; the value is sᵀPs with P = −S.",
         when=lambda given: given.convention == "value",
     )
     def in_costs(given: Any, work: Work) -> None:

@@ -125,7 +125,7 @@ def one_sweep(solve: Solve) -> Misconception:
     """The slip of a solver that evaluates a policy by a single sweep."""
     return slip(
         "one-sweep",
-        "One sweep only gives the reward of the next step; the values of a policy must solve all equations at once.",
+        "One sweep gives only the reward of the next step; the values of a policy must solve all equations at once.",
         when=lambda given: getattr(given, "values", None) is None,  # where they are given, nothing is evaluated
     )(lambda given, work: solve(given, work, _swept))
 

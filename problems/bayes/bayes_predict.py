@@ -1,4 +1,4 @@
-"""The belief over the states of a robot after one or several actions."""
+"""The belief over states after one or several actions."""
 
 from typing import Self
 

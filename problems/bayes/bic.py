@@ -1,4 +1,4 @@
-"""The Bayesian information criterion of two models, and which of them wins."""
+"""The Bayesian information criterion of two or three models, or Akaike's, and which of them wins."""
 
 import math
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Part, Values
 
-TITLE = "Bayesian information criterion"
+TITLE = "Information criterion (BIC or AIC)"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
 REVISION = 7
 

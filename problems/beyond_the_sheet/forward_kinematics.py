@@ -117,7 +117,11 @@ def question(given: Given) -> Question:
     parts = []
     for angle, end, entries in which:
         parts += [
-            Part(f"What is the angle {angle} relative to the $x$ axis, in radians?", Number(), zero=True),
+            Part(
+                f"What is the angle {angle} relative to the $x$ axis, in radians, no full turn added or taken off?",
+                Number(),
+                zero=True,
+            ),
             Part(f"Where is the end point {end}?", Numbers(entries), zero=given.frames),
         ]
     return Question(_situation(given), tuple(parts))

@@ -154,7 +154,7 @@ def _losses(given: Given) -> tuple[tuple[Block, ...], str, str]:
         "$L_i(θ) = 1/2 · c_i (θ − m_i)^2$, before the adaptation as well as after it:"
     )
     adapted = "adapts it to every task by one step of gradient descent on the task's loss, from $θ$ to $θ′_i$"
-    return (Paragraph(told), Table(("task $i$", "$c_i$", "$m_i$"), rows)), adapted, "Σ_i L_i(θ′_i)"
+    return (Paragraph(told), Table(("task $i$", "$c_i$", "$m_i$"), rows)), adapted, "∑_i L_i(θ′_i)"
 
 
 def _outer(given: Given) -> str:

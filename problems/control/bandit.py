@@ -311,7 +311,7 @@ def _averages(given: Averaged) -> Part:
 
 
 #: The bound as it is given: another root is as common, and then another arm wins.
-_BOUND = "$U(a) = Q(a) + c √((ln t)/N(a))$, where arm $a$ was pulled $N(a)$ times,"
+_BOUND = "$U(a) = Q(a) + c √({ln t}/{N(a)})$, where arm $a$ was pulled $N(a)$ times,"
 
 
 def _exploration(given: Bounds) -> Block:

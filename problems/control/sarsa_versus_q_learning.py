@@ -177,8 +177,8 @@ def _is_read_again(found: Mapping[str, Any], worth: Worth) -> bool:
     return right != kept and all(target.denominator <= _FINEST for target in right)
 
 
-def _comes_back(run: Trajectory) -> bool:
-    """Whether a target uses the row of a state that was updated before: only then does the step size matter."""
+def comes_back(run: Trajectory) -> bool:
+    """Whether a target uses the row of a state that was updated before: only then is the step size printed."""
     return any(run.states[time + 1] in run.states[:time] for time in range(1, len(run.rewards)))
 
 
@@ -186,7 +186,7 @@ def question(given: Given) -> Question:
     """The run and the table before it; the targets of both methods, or the step size; then the word for one of them."""
     run = given.trajectory
     steps = len(run.rewards)
-    situation = run_situation(given, action_values_table(given.values), steps=_comes_back(run))
+    situation = run_situation(given, action_values_table(given.values), steps=comes_back(run))
     if given.known is not None:
         situation = tuple(
             Paragraph(not_known(block.text)) if isinstance(block, Paragraph) else block for block in situation

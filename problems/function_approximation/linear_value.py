@@ -203,7 +203,7 @@ def _parts(given: Given) -> Iterator[Part]:
     if given.between:
         yield Part("At which $x$ between the centres do both actions have the same value?", Number(), zero=True)
         yield Part("What is this value?", Number(), zero=True)
-        yield Part("Which action is greedy at the centre $c_1$?", Policy({"s": actions}))
+        yield Part("Which action is greedy at the centre $c_1$?", Policy({"s": actions}, ""))
         return
     if given.bumps is not None:
         yield asked_features(given.bumps, ())

@@ -157,7 +157,7 @@ def question(given: Given) -> Question:
         model = "Values are estimated as $V̂(s) = θ^⊤ φ(s)$, with these features:"
     ends: tuple[Block, ...] = ()
     if run.terminal:
-        ends = (Paragraph(f"The episode ends in {run.states[-1]}, a terminal state, whose value is always $0$."),)
+        ends = (Paragraph(f"The episode ends in the terminal state {run.states[-1]}, whose value is always $0$."),)
     when = "after the transition" if steps == 1 else "after every transition"
     blocks = (
         Paragraph("An agent follows this trajectory (each reward stands at the time at which it is received):"),

@@ -223,7 +223,7 @@ def question(given: Given) -> Question:
         )
     parts.append(Part(ask, Values(f'Pr("{given.asked}"|·)', given.histories)))
     if options := where(given):
-        told = "The Markov property asks that the distribution of $s_{t+1}$ depends on $s_t$ alone."
+        told = "The Markov property asks that the distribution of $s_{t+1}$ depend on $s_t$ alone."
         parts.append(Part(f"{told} For which present state $s_t$ does it also depend on $s_{{t-1}}$?", Choice(options)))
     else:
         parts.append(Part(consistent, YesNo()))

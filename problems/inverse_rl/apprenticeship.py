@@ -201,7 +201,7 @@ def question(given: Given) -> Question:
     )
     point = Numbers(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
     weights = Numbers(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
-    share = "Which share $c$ of the way from $μ̄$ to $μ(π_1)$ does it go first?"
+    share = "What share $c$ of the way from $μ̄$ to $μ(π_1)$ does its first step go?"
     parts = [] if given.candidates else [Part(share, Number())]
     for number in range(1, count + 1):
         parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{number}$?", point))

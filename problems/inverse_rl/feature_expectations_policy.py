@@ -262,4 +262,4 @@ def _policy(given: Given) -> tuple[Block, ...]:
 def _ending(given: Given) -> str:
     if not given.terminal:
         return ""
-    return f"An episode ends in {' or '.join(given.terminal)}, where no features count. "
+    return f"An episode ends in the terminal state {' or '.join(given.terminal)}, where no features count. "

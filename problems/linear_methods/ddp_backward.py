@@ -124,9 +124,9 @@ def question(given: Given) -> Question:
     )
     hessian = "second derivative" if n == 1 else "Hessian"
     wanted = (
-        ("Q_s", _first(n), n, 1), ("Q_a", _first(m), m, 1), ("Q_{s s}", _second(n, n), n, n),
-        ("Q_{a s}", _second(m, n), m, n), ("Q_{a a}", _second(m, m), m, m),
-        ("k", "constant change of the action", m, 1), ("K", "gain", m, n),
+        (f"{_first(n)} $Q_s$", n, 1), (f"{_first(m)} $Q_a$", m, 1), (f"{_second(n, n)} $Q_{{s s}}$", n, n),
+        (f"{_second(m, n)} $Q_{{a s}}$", m, n), (f"{_second(m, m)} $Q_{{a a}}$", m, m),
+        ("constant term $k$ of the change of the action", m, 1), ("gain $K$", m, n),
     )  # fmt: skip
     known = f"At $f(s̄, ā)$ the value $V′$ of the next state has this {_first(n)} and this {hessian}:"
     return Question(
@@ -144,7 +144,7 @@ def question(given: Given) -> Question:
             ),
         ),
         (
-            *(Part(f"What is the {what} ${head}$?", Matrix(rows, columns)) for head, what, rows, columns in wanted),
+            *(Part(f"What is the {what}?", Matrix(rows, columns)) for what, rows, columns in wanted),
             *_action_asked(given),
         ),
     )

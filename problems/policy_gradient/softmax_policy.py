@@ -158,6 +158,6 @@ def question(given: Given) -> Question:
         Part(f"What is the probability $π(a|s)$ of every action{in_open(given)}?", Values("π(·|s)", actions)),
     ]
     if given.entropy:
-        ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"
+        ask = "What is the entropy $H = −∑_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"
         parts.append(Part(f"{ask}{in_open(given)}?", Number()))
     return Question(blocks, tuple(parts))

@@ -10,7 +10,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import Equation, joined
 from rldrill.problems.exact import needed, shown
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, sign, simplest, tidy, to_sympy, told
+from rldrill.solutions.exact import NoSolution, Value, exact, near, order, sign, simplest, tidy, to_sympy, told
 from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
@@ -55,7 +55,7 @@ def _compare(given: Given, work: Work, better: int) -> None:
     criteria = {}
     work.recall(formula)
     if given.criterion == "BIC" and (prime_factors := _taken_apart(n)):
-        work.say(f"${prime_factors}$.")
+        work.say(f"${prime_factors}$")
     for name in names:
         logarithm = fit[name] if fit else _logarithm(given, name, work)
         criteria[name] = work.step(formula, M=name, log_likelihood=logarithm, free=free[name], n=n)
@@ -90,7 +90,7 @@ def _logarithm(given: Given, name: str, work: Work) -> Value:
     factor, logarithm = to_sympy(value).as_coeff_Mul()
     if factor < 0 and isinstance(logarithm, sympy.log):
         power = "" if factor == -1 else f"{-factor} "
-        work.say(f'$ln p(D_z|"{name}", θ̂) = ln({shown(model.likelihood)}) = −{power}ln {logarithm.args[0]}$.')
+        work.say(f'$ln p(D_z|"{name}", θ̂) = ln({shown(model.likelihood)}) = −{power}ln {logarithm.args[0]}$')
     return value
 
 
@@ -116,10 +116,10 @@ def _fit(work: Work, data: Data, model: str) -> Value:
             else work.step(COIN_ML, heads=sum(heads.values(), exact(0)), tails=sum(tails.values(), exact(0)))
         )
         theta = dict.fromkeys(heads, share)
-        work.say(f"$θ̂_c = {told(share)}${' for every coin' if several else ''}.")
+        work.say(f"$θ̂_c = {told(share)}${' for every coin' if several else ''}")
     taken_apart = dict.fromkeys(_taken_apart(chance) for share in theta.values() for chance in (share, 1 - share))
     if told_apart := ", ".join(filter(None, taken_apart)):
-        work.say(f"${told_apart}$.")
+        work.say(f"${told_apart}$")
     known = {"heads_of": heads, "tails_of": tails, "theta_of": theta, "coins": tuple(heads)}
     value = work.step(LOG_LIKELIHOOD, M=model, **known)
     if work.lines and isinstance(last := work.lines[-1], Step):
@@ -191,7 +191,7 @@ def _border(given: Given, work: Work, better: int) -> None:
 
 def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
     name = given.criterion
-    numbers = [f"{name}({model}) ≈ {float(enclosure(value).mid()):.4g}" for model, value in criteria.items()]
+    numbers = [f"{name}({model}) {near(value, 4)}" for model, value in criteria.items()]
     two = len(numbers) == 2
     if any(isinstance(value, sympy.Expr) for value in criteria.values()):
         work.say(f"In numbers, {joined(numbers)}.")

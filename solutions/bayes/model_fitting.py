@@ -66,8 +66,8 @@ def _coin(coin: Coin, work: Work, with_prior: Formula) -> None:
 def _most_probable(work: Work, why: str) -> None:
     """What the maximum a posteriori estimate is, and how the formula for it comes from likelihood times prior."""
     work.say(
-        "The maximum a posteriori estimate is the parameter that is most probable given the model $M$ and the data "
-        "$D_z$:"
+        "The maximum a posteriori estimate is the parameter that is most probable given the data, here called $D_z$, "
+        "and the model, $M$:"
     )
     work.recall(MODEL_FITTING)
     work.say(why)
@@ -84,7 +84,7 @@ def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
         return
     _most_probable(
         work,
-        "Likelihood times prior is proportional to $exp(−Σ_i (x_i − μ)^2/(2 σ^2) − (μ − μ_0)^2/(2 σ_0^2))$. It is "
+        "Likelihood times prior is proportional to $exp(−∑_i (x_i − μ)^2/(2 σ^2) − (μ − μ_0)^2/(2 σ_0^2))$. It is "
         "greatest where the derivative of the exponent, $n (μ̂ − μ)/σ^2 − (μ − μ_0)/σ_0^2$, is $0$:",
     )
     noise, mean, variance = exact(prior.noise), exact(prior.mean), exact(prior.variance)
@@ -108,7 +108,7 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
         return
     _most_probable(
         work,
-        "Likelihood times prior is proportional to $exp(−Σ_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
+        "Likelihood times prior is proportional to $exp(−∑_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
         "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent with respect to $θ_1$, "
         "$(S_{xy} − θ_1 S_{xx})/σ^2 − θ_1/σ_0^2$, is $0$:",
     )

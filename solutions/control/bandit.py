@@ -7,7 +7,7 @@ from sympy import Mul
 
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
-from rldrill.solutions.exact import NoSolution, Value, decimal, exact, to_sympy, told
+from rldrill.solutions.exact import NoSolution, Value, exact, near, to_sympy, told
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.putting_in import put_in
@@ -71,7 +71,7 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
     """The bounds, then the arm that has the greatest."""
     known = _counted(given, averages) | {"c": exact(given.c)}
     bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.tried})
-    work.say(lambda: f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
+    work.say(lambda: f"In decimals: {', '.join(f'$U({arm}) {near(bound, 4)}$' for arm, bound in bounds.items())}.")
     if given.untried:
         work.say(f"No bound is as great as that of an arm that was never pulled: {joined([*given.untried])}.")
         work.answer({NEXT: given.untried})
@@ -121,7 +121,7 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     work.say(
         lambda: (
             f"The bound of {rarer}, which was pulled less often, grows faster with $c$: above "
-            f"$c ≈ {decimal(weight, 3)}$ it is the greater one."
+            f"$c {near(weight, 3)}$ it is the greater one."
         )
     )
     work.answer({NEXT: (rarer,)})

@@ -3,7 +3,13 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from rldrill.problems.control.sarsa_versus_q_learning import METHODS, Given, first_that_reads_again, method
+from rldrill.problems.control.sarsa_versus_q_learning import (
+    METHODS,
+    Given,
+    comes_back,
+    first_that_reads_again,
+    method,
+)
 from rldrill.problems.document import joined
 from rldrill.problems.exact import needed, shown
 from rldrill.problems.fractions import Fraction
@@ -47,6 +53,10 @@ _WHY = {
 
 def _asks_for_targets(given: Given) -> bool:
     return given.known is None
+
+
+def _states_the_step_size(given: Given) -> bool:
+    return _asks_for_targets(given) and comes_back(given.trajectory)
 
 
 def _asks_back(given: Given) -> bool:
@@ -190,7 +200,7 @@ def _updates(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
 @slip(
     "update-for-target",
     "The target is what the old value is moved towards; α and the old value come in only when it is moved.",
-    when=_asks_for_targets,
+    when=_states_the_step_size,
 )
 def update_for_target(given: Given, work: Work) -> None:
     """The values that were moved towards the targets."""

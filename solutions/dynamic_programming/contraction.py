@@ -7,7 +7,7 @@ import sympy
 from rldrill.problems.dynamic_programming.contraction import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
-from rldrill.solutions.exact import ONE, NoSolution, Value, decimal, exact, sign, to_sympy
+from rldrill.solutions.exact import ONE, NoSolution, Value, exact, near, sign, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -72,12 +72,13 @@ def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) ->
         else:  # the fraction has more digits than anybody reads
             value = work.value(CONTRACTION, k=k, **known)
             power = f"{_power(known['gamma'], k)}·{text_of(known['distance'][0])}"
-            work.say(f"After {k} sweeps the bound is ${power} ≈ {decimal(value, 4)}$, {relation} {limit}.")
+            work.say(f"After {k} sweeps the bound is ${power} {near(value, 4)}$, {relation} {limit}.")
 
 
 def _rounded(bound: Value) -> str:
     """A fraction as a decimal, to be compared; nothing for a whole number."""
-    return f"about ${decimal(bound, 4)}$, " if "/" in text_of(bound) else ""
+    relation, written = near(bound, 4).split()
+    return f"{'about ' if relation == '≈' else ''}${written}$, " if "/" in text_of(bound) else ""
 
 
 def _power(gamma: Value, k: int) -> str:

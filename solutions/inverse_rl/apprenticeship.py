@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 from rldrill.problems.exact import shown
 from rldrill.problems.inverse_rl.apprenticeship import Given
-from rldrill.solutions.exact import NoSolution, decimal, exact, sign
+from rldrill.solutions.exact import NoSolution, exact, near, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
@@ -64,12 +64,12 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         compared = f"{relation} {shown(given.tolerance)}$: {'yes, it stops' if stops else 'no, it goes on'}."
         work.say("The method stops where the policies that it has found, mixed, come close enough to its aim:")
         work.recall(APPRENTICESHIP)
-        work.say(lambda: f"$‖w‖ ≈ {decimal(left, 3)} {compared}")
+        work.say(lambda: f"$‖w‖ {near(left, 3)} {compared}")
         work.answer(stops)
 
 
 def _length(work: Work, known: dict[str, Any]) -> Any:
-    work.say("The projection lies the share $c$ of the way from $μ̄$ to $μ(π)$:")
+    work.say("The projection goes the share $c$ of the way from $μ̄$ to $μ(π)$:")
     return work.step(PROJECTION_LENGTH, **known)
 
 

@@ -184,7 +184,8 @@ def other_method(given: Given, work: Work) -> None:
 
 ILQR_FOR_DDP = slip(
     "ilqr-for-ddp",
-    "DDP keeps the second derivatives of the dynamics: V′ₛ · fₛₛ and the like belong to Q's; only iLQR drops them.",
+    "DDP keeps the second derivatives of the dynamics: V′ₛ · fₛₛ and the like belong to those of Q; "
+    "only iLQR drops them.",
     when=lambda given: given.second_order,
 )(other_method)
 DDP_FOR_ILQR = slip(

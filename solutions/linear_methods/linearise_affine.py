@@ -38,7 +38,7 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
     if given.moved:
         f_bar = work.answer(f_bar)
     work.recall(affine_step().linear)
-    work.say("What holds neither $s$ nor $a$ is $C$:")
+    work.say("The terms without $s$ and $a$ make up $C$:")
     _augmented(given, work, A, B, work.step(affine_step().constant, Fbar=f_bar, Ad=A, Bd=B, sbar=s_bar, abar=a_bar))
 
 

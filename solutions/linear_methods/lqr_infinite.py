@@ -118,12 +118,12 @@ def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator)
 
     unknown = generator(P)
     if given.unknown == "Q":
-        work.say(f"The formula of the gain contains no price, and gives ${P}$:")
+        work.say(f"The formula of the gain does not contain $ρ$, and gives ${P}$:")
         value = work.answer(work.equate(P, best(unknown), gain))
         work.say(f"Now the equation of ${P}$ gives the price:")
         work.answer(work.equate("rho", riccati(value), value))
     else:
-        work.say(f"The equation of ${P}$ contains no price, and gives ${P}$:")
+        work.say(f"The equation of ${P}$ does not contain $ρ$, and gives ${P}$:")
         slope, constant = linear(riccati(unknown), P)
         value = work.answer(work.equate(P, unknown * (1 - slope), constant))
         work.say("Now the formula of the gain gives the price:")

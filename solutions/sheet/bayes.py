@@ -187,7 +187,7 @@ with evaluate(False):
 
     MOTION_TRANSPOSED = Misconception(
         "motion-transposed",
-        "p(s′|s, a) leads from s to s′: add up over where the robot comes from, not over where it goes.",
+        "p(s′|s, a) leads from s to s′: add up over the states that lead to s′, not over those that s′ leads to.",
     )
     MOTION_AS_LIKELIHOOD = Misconception(
         "motion-as-likelihood",
@@ -200,7 +200,7 @@ with evaluate(False):
         SumOver(motion(s1, s, a) * p(s), s, States),
         title="Belief after an action",
         source="Thrun, Burgard & Fox 2005, table 4.1, line 3",
-        hint="Sum over the states that the robot may come from: the probability of each, times that of the way here.",
+        hint="Sum over the states that may come before: the probability of each, times that of the way here.",
         misread={
             MOTION_TRANSPOSED: SumOver(motion(s, s1, a) * p(s), s, States),
             MOTION_AS_LIKELIHOOD: motion(s1, s1, a) * p(s1) / SumOver(motion(s, s, a) * p(s), s, States),
@@ -213,7 +213,7 @@ with evaluate(False):
         SumOver(motion(s1, s, a) * p(s), s, States),
         title="Prediction of a Bayes filter",
         source="Thrun, Burgard & Fox 2005, table 2.1, line 3",
-        hint="Sum over the states that the robot may come from: the probability of each, times that of the way here.",
+        hint="Sum over the states that may come before: the probability of each, times that of the way here.",
         place=Place.WORKING,
     )
     BELIEF_NOT_NORMALISED = Misconception(
@@ -560,7 +560,7 @@ with evaluate(False):
     BIC_SIGN = Misconception(
         "sign", "The log-likelihood is multiplied by −2, so that a better fit makes the BIC smaller."
     )
-    BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs log n, not n.")
+    BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs ln n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
     BIC = Formula(
         "bic",

@@ -253,7 +253,7 @@ with evaluate(False):
         },
     )
     TAIL_LEFT_OUT = Misconception(
-        "tail-left-out", "To the reward of the next step comes the best total from the state that it leads to."
+        "tail-left-out", "The reward of the next step is not all: add the best total from the state that it leads to."
     )
     PRINCIPLE_OF_OPTIMALITY = Formula(
         "principle-of-optimality",

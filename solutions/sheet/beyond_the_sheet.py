@@ -340,10 +340,10 @@ with evaluate(False):
     )
     FIRST_ORDER = Misconception(
         "first-order",
-        "The full gradient goes through the adaptation: dθ′/dθ = 1 − αc; leaving it out is first-order MAML.",
+        "The full gradient goes through the adaptation: dθ′ᵢ/dθ = 1 − αcᵢ; leaving it out is first-order MAML.",
     )
     NOT_ADAPTED = Misconception(
-        "gradient-before-adaptation", "The outer loss is that of the adapted parameters θ′, not of the θ from before."
+        "gradient-before-adaptation", "The outer loss is that of the adapted parameters θ′, not that of θ itself."
     )
     MAML_OUTER = Formula(
         "maml-step",

@@ -342,7 +342,7 @@ with evaluate(False):
         when=lambda given: len(given.best) < len(given.values),
     )
     NOT_SPLIT = Misconception(
-        "not-split-in-a-tie", "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it."
+        "not-split-in-a-tie", "Tied best actions share the probability 1 − ε; none of them alone has all of it."
     )
     EPSILON_GREEDY_TIED = Formula(
         "epsilon-greedy-tied",

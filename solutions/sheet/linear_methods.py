@@ -69,7 +69,7 @@ def in_costs(states: int) -> str:
     """How a working in values of P reads for somebody who learnt it in costs."""
     return (
         f"$P_t$ is the {'coefficient' if states == 1 else 'matrix'} of the value; in the cost-to-go convention it is "
-        "$S_t = −P_t$, and the same gain reads $L_t = (R_t + B_t^⊤ S_{t+1} B_t)^{−1} B_t^⊤ S_{t+1} A_t$."
+        "$S_t = −P_t$, and the gain is $L_t = (R_t + B_t^⊤ S_{t+1} B_t)^{−1} B_t^⊤ S_{t+1} A_t$."
     )
 
 
@@ -122,7 +122,7 @@ with evaluate(False):
     )
     POSITIVE_S = Misconception(
         "cost-to-go-for-value",
-        "The sheet's P is the matrix of the value, so negative; the positive cost-to-go S belongs in (R + BᵀSB)⁻¹BᵀSA.",
+        "P is that of the value sᵀPs, which is never positive; what belongs in (R + BᵀSB)⁻¹BᵀSA is S = −P.",
     )
     FORGOT_R = Misconception("forgot-r", "The price R of the action belongs in the bracket: BᵀPB − R.")
     TRANSPOSED_A = Misconception(

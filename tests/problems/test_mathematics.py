@@ -4,9 +4,11 @@ import pytest
 
 from rldrill.problems.mathematics import (
     Accent,
+    Big,
     Fence,
     Fraction,
     Math,
+    Root,
     Row,
     Script,
     listed,
@@ -36,6 +38,14 @@ one, two = number(1), number(2)
         ("xy\u0304", Accent(word("xy"), "bar")),
         ("a b", row(a, b)),
         ('"a"', a),
+        ('"A"', word("A")),
+        ("A", variable("A")),
+        ("√(a b)", Root(row(a, b))),
+        ("√2", Root(two)),
+        ("{a b}/{s}", Fraction(row(a, b), s)),
+        ("∑_t a", row(Big("Σ", t), a)),
+        ("dθ/dJ", row(variable("d"), variable("θ"), punctuation("/"), variable("d"), variable("J"))),
+        ("dx", word("dx")),
         ('"smoking hot"', word("smoking hot")),
         ("s'", variable("s′")),
         ("s₁", variable("s₁")),
@@ -80,7 +90,7 @@ def test_what_is_read(text: str, read: Math) -> None:
     [
         ("a_", "a script is missing"), ("a^", "a script is missing"), ("(a", r"'\)' is missing"),
         ("{a", "'}' is missing"), ("[a", r"'\]' is missing"), ("(a]", r"'\)' is missing"), ("‖a", "'‖' is missing"),
-        ("a_{t", "'}' is missing"),
+        ("a_{t", "'}' is missing"), ("√", "a script is missing"), ("∑", "a script is missing"),
     ],
 )  # fmt: skip
 def test_what_is_left_open(text: str, said: str) -> None:

@@ -57,7 +57,7 @@ def test_one_parameter_may_be_left_open_and_no_more() -> None:
 def test_where_an_episode_ends() -> None:
     assert phrases.terminal_note(()) == ()
     assert phrases.terminal_note(("over",)) == (
-        Paragraph("An episode ends in over, a terminal state, whose value is $0$."),
+        Paragraph("An episode ends in the terminal state over, whose value is $0$."),
     )
     assert phrases.terminal_note(("over", "out")) == (
         Paragraph("Episodes end in over and out, terminal states, whose values are $0$."),
