@@ -1,4 +1,7 @@
-"""Arrows of state diagrams: their heads end on the edge of what is drawn for the state that they lead to."""
+"""State diagrams: heads end on the edge of what is drawn for a state, and it is clear what a label belongs to."""
+
+from collections import Counter
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -8,7 +11,7 @@ from rldrill.problems.models import state_diagram
 from rldrill.problems.pictures import StateDiagram
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 from rldrill.render.pictures.curves import Outline, bent
-from rldrill.render.pictures.scene import Caption, Ellipse, Path
+from rldrill.render.pictures.scene import Bounds, Caption, Curve, Ellipse, Path, bounds_of
 from rldrill.render.pictures.scenes import scene_of
 
 BOX, CIRCLE = Outline(130, 105, square=True), Outline(50, 50)
@@ -74,3 +77,64 @@ def test_every_head_ends_on_the_edge_of_its_state_and_nothing_lies_over_it(shape
         scene = scene_of(diagram)
         assert scene is not None
         assert scene.shapes[-len(heads) :] == tuple(heads), "nothing is drawn over a head"
+
+
+def ink(label: Caption) -> Bounds:
+    """The label without the air around it."""
+    box = bounds_of(label)
+    return Bounds(box.left + 0.5, box.top + 1, box.right - 0.5, box.bottom - 1)
+
+
+def samples(line: Curve | Path) -> list[tuple[float, float]]:
+    """Points along a curve or a straight line, less than the height of a label apart."""
+    if isinstance(line, Path):
+        (x, y), (u, v) = line.points
+        line = Curve((x, y), ((x + u) / 2, (y + v) / 2), (u, v))
+    (x, y), (a, b), (u, v) = line.start, line.control, line.end
+    shares = [n / 60 for n in range(61)]
+    return [
+        ((1 - t) ** 2 * x + 2 * t * (1 - t) * a + t**2 * u, (1 - t) ** 2 * y + 2 * t * (1 - t) * b + t**2 * v)
+        for t in shares
+    ]
+
+
+def apart(box: Bounds, point: tuple[float, float]) -> float:
+    across = max(box.left - point[0], 0, point[0] - box.right)
+    return float(np.hypot(across, max(box.top - point[1], 0, point[1] - box.bottom)))
+
+
+def muddles(diagram: StateDiagram) -> list[str]:
+    """Labels on another's line, names nearer to another's dot, and labels that read as one."""
+    scene = scene_of(diagram)
+    assert scene is not None
+    curves = [each for each in scene.shapes if isinstance(each, Curve)]
+    stems = [each for each in scene.shapes if isinstance(each, Path) and not each.closed]
+    dots = [each.centre for each in scene.shapes if isinstance(each, Ellipse) and each.fill == 0.0]
+    labels = [each for each in scene.shapes if isinstance(each, Caption) and each.plate]
+    found, curve = [], 0
+    pairs = Counter((arrow.state, arrow.action) for arrow in diagram.arrows)
+    order = [(number, last) for number, count in enumerate(pairs.values()) for last in (*[False] * count, True)]
+    for (number, name), label in zip(order, labels, strict=True):
+        box = ink(label)
+        others = [line for index, line in enumerate([*curves, *stems]) if name or index != curve]
+        curve += not name
+        if any(apart(box, point) == 0 for line in others for point in samples(line)):
+            found.append(f"{label.text} lies on another's line")
+        far = [apart(box, dot) for dot in dots]
+        if name and len(far) > 1 and min(far[:number] + far[number + 1 :]) <= far[number]:
+            found.append(f"{label.text} is nearer to another's dot")
+    for one, two in combinations(map(ink, labels), 2):
+        level = min(one.bottom, two.bottom) - max(one.top, two.top)
+        if level > 2 and max(one.left, two.left) - min(one.right, two.right) < 5:
+            found.append("two labels read as one")
+    return found
+
+
+def test_labels_of_state_diagrams_belong_to_one_thing() -> None:
+    shapes = [(2, 2, 2), (3, 1, 2), (3, 2, 1), (3, 2, 2), (4, 2, 1)]
+    found = []
+    for shape in shapes:
+        for seed in range(10):
+            rng = Draws(f"labels {seed}")
+            found.append(muddles(state_diagram(draw_model(rng, draw_setting(rng), Shape(*shape)))))
+    assert sum(map(bool, found)) <= 1, [each for each in found if each]

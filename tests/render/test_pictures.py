@@ -210,7 +210,7 @@ def test_a_layout_that_was_once_drawn_is_drawn_again() -> None:
     scene = scene_of(racing)
     assert scene is not None
     dots = [shape.centre for shape in scene.shapes if isinstance(shape, Ellipse) and shape.fill == 0.0]
-    assert dots == [(0.0, 34.5), (20.1, -31.5)]
+    assert dots == [(20.1, -31.5), (0.0, 43.5)]
 
 
 def shown(width: int, *blocks: Picture | Beside) -> list[str]:

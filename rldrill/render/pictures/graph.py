@@ -53,12 +53,13 @@ def scene(diagram: StateDiagram) -> Scene | None:
     if len(diagram.states) > MOST_STATES or len(diagram.arrows) > MOST_ARROWS or not diagram.arrows:
         return None
     actions = _actions(diagram)
+    found: list[Drawing] = []
     for air in _AIR:
-        found = [placed(search(states, actions), states, actions) for states in _arranged(diagram, air)]
-        best = min(found, key=lambda drawing: drawing.cost)
-        if best.cost < HARD:
-            return _scene(diagram, best)
-    return None
+        found += [placed(search(states, actions), states, actions) for states in _arranged(diagram, air)]
+        best = min(found, key=lambda drawing: (drawing.cost >= HARD, drawing.muddled, drawing.cost))
+        if best.cost < HARD and not best.muddled:
+            break
+    return _scene(diagram, best) if best.cost < HARD else None
 
 
 def _actions(diagram: StateDiagram) -> tuple[Action, ...]:

@@ -18,6 +18,8 @@ from rldrill.render.pictures.curves import (
 )
 from rldrill.render.pictures.scene import SIZE, text_width
 
+#: How far apart two labels side by side stand, so that they do not read as one.
+GAP = 50
 #: A drawing that costs as much is not readable: something lies over something else.
 HARD = 100_000
 _CROSSING = 900
@@ -68,6 +70,7 @@ class Drawing:
     lines: list[Ints]
     cost: int
     labels: list[tuple[Ints, str]] = field(default_factory=list)
+    muddled: bool = True  # a label lies on another's line, or seems to belong to something else
 
 
 @dataclass
@@ -87,6 +90,10 @@ class _Options:
 class _Choice:
     place: int
     bends: list[int]
+
+
+def _with_gap(size: tuple[int, int]) -> tuple[int, int]:
+    return size[0] + GAP, size[1]
 
 
 def label_size(text: str) -> tuple[int, int]:
@@ -134,7 +141,7 @@ def _options(states: States, action: Action) -> _Options:
     _, stems = bent(places, np.broadcast_to(centre, places.shape), np.zeros(count, dtype=np.int64), outline)
     stems = stems[:, [0, -1]]
     curves, lines, each = [], [], []
-    sizes = [label_size(text) for text in action.labels]
+    sizes = [_with_gap(label_size(text)) for text in action.labels]
     for target, size in zip(action.targets, sizes, strict=True):
         bends = _BACK if target == action.state else _BENDS
         starts = np.repeat(places, len(bends), axis=0)
