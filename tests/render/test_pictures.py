@@ -346,3 +346,29 @@ def test_the_base_stands_where_the_first_link_does_not_run_through_it(
     assert scene is not None
     (left, top), (right, bottom) = next(each for each in scene.shapes if isinstance(each, Lines)).points
     assert ((left + right) / 2, (top + bottom) / 2) == pytest.approx(side, abs=1e-9)
+
+
+def test_the_arc_of_the_angle_runs_outside_of_the_cart_and_its_wheels() -> None:
+    for angle in (150, 180, 210):
+        scene = scene_of(Pendulum(angle, cart=True))
+        assert scene is not None
+        arc = next(each for each in scene.shapes if isinstance(each, Lines) and len(each.points) > 12)
+        # A corner of the cart is √(22² + 7²) ≈ 23.1 from the pivot, the far side of a wheel √(13² + 11²) + 4 ≈ 21.0.
+        assert all(x * x + y * y > 27**2 for x, y in arc.points)
+
+
+def test_every_centre_of_a_bump_has_its_number_and_none_runs_into_another() -> None:
+    for centres in ((-5, -4.5, 20), (0, 1, 2), (0, 0.25, 0.5, 40)):
+        scene = scene_of(Bumps(centres, 2, "tent", -3))
+        assert scene is not None
+        found = [label.text for label in labels(scene)]
+        assert {f"${centre:g}$".replace("-", "−") for centre in centres} < set(found)
+        assert len(found) == 2 * len(centres) + 1
+        assert_apart(scene, labels(scene))
+        curves = [bounds_of(each).top for each in scene.shapes if isinstance(each, Lines) and len(each.points) > 40]
+        assert all(bounds_of(each).bottom < min(curves) - 3 for each in labels(scene) if "φ" in each.text)
+
+
+def test_two_diagrams_that_have_titles_stand_apart() -> None:
+    root = backup_diagram("td-zero").root
+    assert drawn_backup(root, "1").box.right == pytest.approx(drawn_backup(root).box.right + 20)

@@ -165,10 +165,11 @@ def pendulum(picture: Pendulum) -> Scene:
         shapes += [Path(((-18, 0), (18, 0)), width=1.2)]
     shapes.append(Path((pivot, _swung(pivot, 0, _ROD * 0.8)), dashed=True, width=0.4))
     shapes.append(Path((pivot, weight), width=1.8))
-    arc = tuple(_swung(pivot, picture.angle * step / 24, 22) for step in range(25))
+    radius = 29 if picture.cart else 22  # outside of the cart and its wheels
+    arc = tuple(_swung(pivot, picture.angle * step / 24, radius) for step in range(25))
     shapes.append(Path(arc, width=0.4))
     shapes += [Ellipse(pivot, (2.4, 2.4)), Ellipse(weight, (6, 6), 0.5)]
-    shapes.append(Caption(_swung(pivot, picture.angle / 2, 30), "$θ$", plate=True))
+    shapes.append(Caption(_swung(pivot, picture.angle / 2, radius + 8), "$θ$", plate=True))
     return Scene(tuple(shapes))
 
 
