@@ -56,7 +56,7 @@ def scene(diagram: StateDiagram) -> Scene | None:
     found: list[Drawing] = []
     for air in _AIR:
         found += [placed(search(states, actions), states, actions) for states in _arranged(diagram, air)]
-        best = min(found, key=lambda drawing: (drawing.cost >= HARD, drawing.muddled, drawing.cost))
+        best = min(found, key=lambda drawing: drawing.cost)
         if best.cost < HARD and not best.muddled:
             break
     return _scene(diagram, best) if best.cost < HARD else None

@@ -20,6 +20,8 @@ _DOT, _AIR = 30, 12
 _CLEAR = 8  # between a label and another's line
 _BESIDE = 70  # a dot so near seems to belong to a label
 _HEAD = 55
+_WIDEST, _HIGHEST = 2500, 1700  # a picture that is larger costs: a table stands beside it
+_MUDDLED = 2500
 _SHOWN = 50  # per cent of a short curve that its label may hide
 
 
@@ -48,14 +50,11 @@ def placed(drawing: Drawing, states: States, actions: tuple[Action, ...]) -> Dra
     middles = (boxes[picked, :2] + boxes[picked, 2:]) // 2
     everything = np.concatenate([states.boxes, dots, boxes[picked]])
     size = everything[:, 2:].max(axis=0) - everything[:, :2].min(axis=0)
-    room = int(max(0, size[0] - 2700)) * 2 + int(max(0, size[1] - 1700)) * 8
+    room = (int(max(0, size[0] - _WIDEST)) + int(max(0, size[1] - _HIGHEST))) * 8
     texts = [label.text for label in labels]
-    return replace(
-        drawing,
-        cost=drawing.cost + int(each.sum()) + room,
-        labels=list(zip(middles, texts, strict=True)),
-        muddled=bool((each >= _ONE_WORD).any()),
-    )
+    muddled = bool((each >= _ONE_WORD).any())
+    cost = drawing.cost + int(each.sum()) + room + muddled * _MUDDLED
+    return replace(drawing, cost=cost, labels=list(zip(middles, texts, strict=True)), muddled=muddled)
 
 
 def _labels(drawing: Drawing, actions: tuple[Action, ...]) -> Iterator[_Label]:
