@@ -13,7 +13,7 @@ from rldrill.render.pictures.graph_search import GAP, HARD, Action, Drawing, Sta
 _COVERED_LINE = 400
 _OTHERS_DOT = 300  # another dot is nearer, or nearly so
 _ONE_WORD = 250  # two labels side by side without a gap
-_ASIDE = 60
+_ASIDE = 120
 _FAR = 70
 _ROUNDS = 6
 _DOT, _AIR = 30, 12
