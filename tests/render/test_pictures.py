@@ -133,6 +133,9 @@ def test_labels_of_arms_cover_no_other_label() -> None:
         boxes = [bounds_of(label) for label in labels(scene)]
         assert len(boxes) == 2 * len(arm.lengths)
         assert not [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])], arm
+        ends = [bounds_of(shape) for shape in scene.shapes if isinstance(shape, Ellipse)]
+        assert len(ends) == len(arm.lengths) + 1
+        assert not [end for end in ends for box in boxes if box.overlaps(end)], arm
 
 
 def words_of(source: str, folder: Path) -> list[Word]:
@@ -210,7 +213,7 @@ def test_a_layout_that_was_once_drawn_is_drawn_again() -> None:
     scene = scene_of(racing)
     assert scene is not None
     dots = [shape.centre for shape in scene.shapes if isinstance(shape, Ellipse) and shape.fill == 0.0]
-    assert dots == [(0.0, 34.5), (20.1, -31.5)]
+    assert dots == [(20.1, -31.5), (0.0, 43.5)]
 
 
 def shown(width: int, *blocks: Picture | Beside) -> list[str]:
@@ -315,3 +318,57 @@ def test_a_base_that_is_turned_is_drawn_as_it_is_turned() -> None:
     )
     assert other.points[1] == pytest.approx(one.points[1], abs=1e-9)
     assert {each.text for each in turned.shapes if isinstance(each, Caption)} >= {"$x$", "$x_0$", "$φ_0$", "$θ_1$"}
+
+
+def links_of(arm: Arm) -> list[Lines]:
+    scene = scene_of(arm)
+    assert scene is not None
+    return [each for each in scene.shapes if isinstance(each, Lines) and each.width > 2]
+
+
+def test_a_link_that_is_folded_back_lies_beside_the_one_before() -> None:
+    # A length is 120/3 = 40 points: up to (0, −80), and back down to half of that, 6 points to the left.
+    first, second = links_of(Arm((2, 1), (90, 180)))
+    assert sum(first.points, ()) == pytest.approx((0, 0, 0, -80), abs=1e-9)
+    assert sum(second.points, ()) == pytest.approx((0, -80, -6, -80, -6, -40), abs=1e-9)
+    # Folded again it lies beside both.
+    assert [link.points[-1][1] for link in links_of(Arm((1, 1, 1), (0, 180, -180)))] == pytest.approx([0, -6, -12])
+
+
+@pytest.mark.parametrize(
+    ("angles", "side"),
+    [((90, 0), (0, 8)), ((-90, 90), (-8, 0)), ((-135, 90), (0, -8)), ((180, 90), (0, 8))],
+)
+def test_the_base_stands_where_the_first_link_does_not_run_through_it(
+    angles: tuple[float, ...], side: tuple[float, float]
+) -> None:
+    scene = scene_of(Arm((1, 1), angles))
+    assert scene is not None
+    (left, top), (right, bottom) = next(each for each in scene.shapes if isinstance(each, Lines)).points
+    assert ((left + right) / 2, (top + bottom) / 2) == pytest.approx(side, abs=1e-9)
+
+
+def test_the_arc_of_the_angle_runs_outside_of_the_cart_and_its_wheels() -> None:
+    for angle in (150, 180, 210):
+        scene = scene_of(Pendulum(angle, cart=True))
+        assert scene is not None
+        arc = next(each for each in scene.shapes if isinstance(each, Lines) and len(each.points) > 12)
+        # A corner of the cart is √(22² + 7²) ≈ 23.1 from the pivot, the far side of a wheel √(13² + 11²) + 4 ≈ 21.0.
+        assert all(x * x + y * y > 27**2 for x, y in arc.points)
+
+
+def test_every_centre_of_a_bump_has_its_number_and_none_runs_into_another() -> None:
+    for centres in ((-5, -4.5, 20), (0, 1, 2), (0, 0.25, 0.5, 40)):
+        scene = scene_of(Bumps(centres, 2, "tent", -3))
+        assert scene is not None
+        found = [label.text for label in labels(scene)]
+        assert {f"${centre:g}$".replace("-", "−") for centre in centres} < set(found)
+        assert len(found) == 2 * len(centres) + 1
+        assert_apart(scene, labels(scene))
+        curves = [bounds_of(each).top for each in scene.shapes if isinstance(each, Lines) and len(each.points) > 40]
+        assert all(bounds_of(each).bottom < min(curves) - 3 for each in labels(scene) if "φ" in each.text)
+
+
+def test_two_diagrams_that_have_titles_stand_apart() -> None:
+    root = backup_diagram("td-zero").root
+    assert drawn_backup(root, "1").box.right == pytest.approx(drawn_backup(root).box.right + 20)

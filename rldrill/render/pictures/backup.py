@@ -19,12 +19,13 @@ _RADII = {"state": 5.0, "action": 3.0, "end": 4.5}
 _STEP = 30.0  # from one level down to the next
 _GAP = 10.0  # between what hangs side by side
 _LEAST = 18.0
+_BESIDE = 20.0  # between two diagrams
 _SHARE = 0.62  # where labels stand along a branch
-_ARC = 0.36  # where the arc crosses the branches
+_ARC = 0.48  # where the arc crosses the branches
 
 
 def scene(root: Node, title: str = "") -> Scene:
-    """A backup diagram, its root above, and over it the title."""
+    """A backup diagram, its root above, and over it the title, which it has where another stands beside it."""
     lines: list[Shape] = []
     nodes: list[Shape] = []
     _draw(root, (0.0, 0.0), lines, nodes, root=True)
@@ -32,7 +33,7 @@ def scene(root: Node, title: str = "") -> Scene:
     if not title:
         return drawn
     box = drawn.box
-    return Scene((*drawn.shapes, Caption(((box.left + box.right) / 2, box.top - 7), title, "above")))
+    return Scene((*drawn.shapes, Caption(((box.left + box.right) / 2, box.top - 7), title, "above")), air=_BESIDE)
 
 
 def _draw(node: Node, at: Point, lines: list[Shape], nodes: list[Shape], *, root: bool = False) -> None:
@@ -77,7 +78,7 @@ def _beside(branch: Branch, start: Point, end: Point) -> Caption:
 def _arc(top: Point, left: Point, right: Point) -> Curve:
     first = (top[0] + _ARC * (left[0] - top[0]), top[1] + _ARC * (left[1] - top[1]))
     last = (top[0] + _ARC * (right[0] - top[0]), top[1] + _ARC * (right[1] - top[1]))
-    bow = min(8.0, 0.35 * (last[0] - first[0]) + 2)
+    bow = min(8.0, 0.2 * (last[0] - first[0]) + 1)
     return Curve(first, (top[0], first[1] + 2 * bow), last)
 
 

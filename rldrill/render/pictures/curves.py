@@ -1,8 +1,9 @@
 """Curves in whole numbers (tenths of a point), so that every machine lays out the same picture.
 
-A curve is quadratic, from an action's dot to the rim of the state that it leads to.
+A curve is quadratic, from an action's dot to the outline of the state that it leads to.
 """
 
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -10,18 +11,37 @@ from numpy.typing import NDArray
 
 Ints: TypeAlias = NDArray[np.int64]
 
-#: How finely curves are looked at: to find the rim, and afterwards.
+#: How finely curves are looked at: to find where they end, and afterwards.
 FINE, COARSE = 48, 8
+#: How often the last piece of a curve is halved, until its end lies on the outline to a tenth of a point.
+_HALVED = 6
 
 
-def bent(starts: Ints, ends: Ints, bends: Ints, rim: tuple[int, int]) -> tuple[Ints, Ints]:
-    """Curves from starts towards the centres of ellipses, cut off at the rim.
+@dataclass(frozen=True)
+class Outline:
+    """The shape that is drawn for a state: an ellipse, or a rectangle, with its half width and half height."""
+
+    wide: int
+    high: int
+    square: bool = False
+
+    def holds(self, points: Ints, centre: Ints, air: int = 0) -> NDArray[np.bool_]:
+        """Which points lie inside, or so near that there is less air than this."""
+        apart = np.abs(points - centre)
+        a, b = self.wide + air, self.high + air
+        if self.square:
+            return (apart[..., 0] < a) & (apart[..., 1] < b)
+        return apart[..., 0] ** 2 * b * b + apart[..., 1] ** 2 * a * a < a * a * b * b
+
+
+def bent(starts: Ints, ends: Ints, bends: Ints, outline: Outline) -> tuple[Ints, Ints]:
+    """Curves from starts towards the centres of shapes, cut off at the outline.
 
     Args:
         starts: of shape (n, 2).
         ends: the centres, of shape (n, 2).
         bends: of shape (n,): how far to the side the control point lies, in eighths of the distance.
-        rim: the ellipse's half axes.
+        outline: the shape.
 
     Returns:
         Start, control and end of every curve, of shape (n, 3, 2); points along them, of shape (n, 9, 2).
@@ -29,13 +49,25 @@ def bent(starts: Ints, ends: Ints, bends: Ints, rim: tuple[int, int]) -> tuple[I
     along = ends - starts
     aside = np.stack([-along[:, 1], along[:, 0]], axis=1)
     controls = (starts + ends) // 2 + aside * bends[:, None] // 8
-    fine = _points(starts, controls, ends, FINE)
-    inside = within(fine, ends[:, None, :], rim)
+    inside = outline.holds(_points(starts, controls, ends, FINE), ends[:, None, :])
     cut = np.where(inside.any(axis=1), np.argmax(inside, axis=1), FINE)
-    cut = np.maximum(cut, 1)
-    tips = fine[np.arange(len(starts)), cut]
-    controls = starts + (controls - starts) * cut[:, None] // FINE
+    whole = FINE << _HALVED
+    outer, inner = np.maximum(cut - 1, 0) << _HALVED, cut << _HALVED
+    for _ in range(_HALVED):
+        middle = (outer + inner) // 2
+        held = outline.holds(_at(starts, controls, ends, middle, whole), ends)
+        outer, inner = np.where(held, outer, middle), np.where(held, middle, inner)
+    inner = np.maximum(inner, 1)
+    tips = _at(starts, controls, ends, inner, whole)
+    controls = starts + (controls - starts) * inner[:, None] // whole
     return np.stack([starts, controls, tips], axis=1), _points(starts, controls, tips, COARSE)
+
+
+def _at(starts: Ints, controls: Ints, ends: Ints, t: Ints, whole: int) -> Ints:
+    """The point of each curve at its own ``t``, counted in parts of a whole."""
+    t = t[:, None]
+    u = whole - t
+    return (u * u * starts + 2 * u * t * controls + t * t * ends) // (whole * whole)
 
 
 def _points(starts: Ints, controls: Ints, ends: Ints, count: int) -> Ints:
@@ -43,13 +75,6 @@ def _points(starts: Ints, controls: Ints, ends: Ints, count: int) -> Ints:
     u = count - t
     total = u * u * starts[:, None] + 2 * u * t * controls[:, None] + t * t * ends[:, None]
     return total // (count * count)
-
-
-def within(points: Ints, centre: Ints, axes: tuple[int, int]) -> NDArray[np.bool_]:
-    """Which points lie in an ellipse."""
-    apart = points - centre
-    a, b = axes
-    return apart[..., 0] ** 2 * b * b + apart[..., 1] ** 2 * a * a < a * a * b * b
 
 
 def segments(lines: Ints) -> Ints:

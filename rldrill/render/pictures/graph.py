@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 
 from rldrill.problems.pictures import StateDiagram
-from rldrill.render.pictures.curves import Ints
+from rldrill.render.pictures.curves import Ints, Outline
 from rldrill.render.pictures.graph_labels import placed
 from rldrill.render.pictures.graph_search import HARD, Action, Drawing, States, search
 from rldrill.render.pictures.scene import (
@@ -53,12 +53,13 @@ def scene(diagram: StateDiagram) -> Scene | None:
     if len(diagram.states) > MOST_STATES or len(diagram.arrows) > MOST_ARROWS or not diagram.arrows:
         return None
     actions = _actions(diagram)
+    found: list[Drawing] = []
     for air in _AIR:
-        found = [placed(search(states, actions), states, actions) for states in _arranged(diagram, air)]
+        found += [placed(search(states, actions), states, actions) for states in _arranged(diagram, air)]
         best = min(found, key=lambda drawing: drawing.cost)
-        if best.cost < HARD:
-            return _scene(diagram, best)
-    return None
+        if best.cost < HARD and not best.muddled:
+            break
+    return _scene(diagram, best) if best.cost < HARD else None
 
 
 def _actions(diagram: StateDiagram) -> tuple[Action, ...]:
@@ -77,9 +78,12 @@ def _arranged(diagram: StateDiagram, air: int) -> list[States]:
     wide = [max(130, round(text_width(name) * UNIT) // 2 + 45) for name in diagram.states]
     step = (2 * max(wide) + 7 * air) // 2
     down = (2 * _HIGH + 6 * air) // 2
-    axes = [(half, _HIGH) for half in wide]
+    outlines = [
+        Outline(half, _HIGH - 10, square=True) if name in diagram.terminal else Outline(half, _HIGH)
+        for name, half in zip(diagram.states, wide, strict=True)
+    ]
     return [
-        States(np.array([(x * step, y * down) for x, y in places], dtype=np.int64), axes)
+        States(np.array([(x * step, y * down) for x, y in places], dtype=np.int64), outlines)
         for places in _ARRANGEMENTS[len(diagram.states)]
     ]
 
@@ -87,22 +91,23 @@ def _arranged(diagram: StateDiagram, air: int) -> list[States]:
 def _scene(diagram: StateDiagram, drawing: Drawing) -> Scene:
     lines: list[Shape] = []
     marks: list[Shape] = []
+    heads: list[Shape] = []
     for dot, stem in zip(drawing.dots, drawing.stems, strict=True):
         lines.append(Path((_point(stem[0]), _point(stem[1]))))
         marks.append(Ellipse(_point(dot), (2.6, 2.6), 0.0))
     for curve in drawing.curves:
         start, control, end = map(_point, curve)
-        lines += [Curve(start, control, end), arrowhead(control, end)]
-    for index, name in enumerate(diagram.states):
-        (x, y), (across, down) = _point(drawing.states.centres[index]), drawing.states.axes[index]
-        a, b = across / UNIT, down / UNIT
-        if name in diagram.terminal:
-            marks.append(rectangle(Bounds(x - a, y - b + 1, x + a, y + b - 1), 0.88))
-        else:
-            marks.append(Ellipse((x, y), (a, b)))
-        marks.append(Caption((x, y), name))
+        lines.append(Curve(start, control, end))
+        heads.append(arrowhead(control, end))
+    for name, centre, outline in zip(diagram.states, drawing.states.centres, drawing.states.outlines, strict=True):
+        marks += [_shape(_point(centre), outline), Caption(_point(centre), name)]
     texts = [Caption(_point(at), text, plate=True, size=SIZE) for at, text in drawing.labels]
-    return Scene((*lines, *texts, *marks))
+    return Scene((*lines, *texts, *marks, *heads))
+
+
+def _shape(centre: Point, outline: Outline) -> Shape:
+    (x, y), (a, b) = centre, (outline.wide / UNIT, outline.high / UNIT)
+    return rectangle(Bounds(x - a, y - b, x + a, y + b), 0.88) if outline.square else Ellipse(centre, (a, b))
 
 
 def _point(place: Ints) -> Point:

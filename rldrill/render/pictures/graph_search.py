@@ -9,15 +9,17 @@ from numpy.typing import NDArray
 from rldrill.render.pictures.curves import (
     COARSE,
     Ints,
+    Outline,
     bent,
     boxes_around,
     crossings,
     overlapping,
     segments,
-    within,
 )
 from rldrill.render.pictures.scene import SIZE, text_width
 
+#: How far apart two labels side by side stand, so that they do not read as one.
+GAP = 50
 #: A drawing that costs as much is not readable: something lies over something else.
 HARD = 100_000
 _CROSSING = 900
@@ -42,16 +44,16 @@ class Action(Struct, frozen=True):
 
 
 class States(Struct, frozen=True):
-    """The states' ellipses: centres of shape (n, 2), half axes."""
+    """The states' shapes: centres of shape (n, 2), outlines."""
 
     centres: Ints
-    axes: list[tuple[int, int]]
+    outlines: list[Outline]
 
     @property
     def boxes(self) -> Ints:
         """The rectangles around them."""
         return np.concatenate(
-            [boxes_around(self.centres[i : i + 1], (2 * a, 2 * b)) for i, (a, b) in enumerate(self.axes)]
+            [boxes_around(self.centres[i : i + 1], (2 * o.wide, 2 * o.high)) for i, o in enumerate(self.outlines)]
         )
 
 
@@ -65,6 +67,7 @@ class Drawing(Struct, frozen=True):
     lines: list[Ints]
     cost: int
     labels: list[tuple[Ints, str]] = field(default_factory=list)
+    muddled: bool = True  # a label lies on another's line, or seems to belong to something else
 
 
 class _Options(Struct):
@@ -82,6 +85,10 @@ class _Options(Struct):
 class _Choice(Struct):
     place: int
     bends: list[int]
+
+
+def _with_gap(size: tuple[int, int]) -> tuple[int, int]:
+    return size[0] + GAP, size[1]
 
 
 def label_size(text: str) -> tuple[int, int]:
@@ -125,17 +132,17 @@ def _settled(options: list[_Options], order: list[int]) -> tuple[int, dict[int, 
 def _options(states: States, action: Action) -> _Options:
     places = _places(states, action)
     count = len(places)
-    centre, axes = states.centres[action.state], states.axes[action.state]
-    _, stems = bent(places, np.broadcast_to(centre, places.shape), np.zeros(count, dtype=np.int64), axes)
+    centre, outline = states.centres[action.state], states.outlines[action.state]
+    _, stems = bent(places, np.broadcast_to(centre, places.shape), np.zeros(count, dtype=np.int64), outline)
     stems = stems[:, [0, -1]]
     curves, lines, each = [], [], []
-    sizes = [label_size(text) for text in action.labels]
+    sizes = [_with_gap(label_size(text)) for text in action.labels]
     for target, size in zip(action.targets, sizes, strict=True):
         bends = _BACK if target == action.state else _BENDS
         starts = np.repeat(places, len(bends), axis=0)
         ends = np.broadcast_to(states.centres[target], starts.shape)
         turns = np.tile(bends, count)
-        curve, line = bent(starts, ends, turns, states.axes[target])
+        curve, line = bent(starts, ends, turns, states.outlines[target])
         shape = (count, len(bends))
         curves.append(curve.reshape(*shape, 3, 2))
         lines.append(line.reshape(*shape, COARSE + 1, 2))
@@ -149,7 +156,7 @@ def _options(states: States, action: Action) -> _Options:
 def _places(states: States, action: Action) -> Ints:
     """Around the state, near and far; and on the ways to the targets."""
     x, y = map(int, states.centres[action.state])
-    a, b = states.axes[action.state]
+    a, b = states.outlines[action.state].wide, states.outlines[action.state].high
     found = [(x + dx * (a + far), y) for far in (230, 330) for dx in (1, -1)]
     found += [(x, y + dy * (b + far)) for far in (230, 320) for dy in (-1, 1)]
     for across, down in ((a * 7 // 10 + 110, b + 200), (a + 200, b + 150), (a + 150, b + 260)):
@@ -162,8 +169,8 @@ def _places(states: States, action: Action) -> Ints:
             found.append(((x * 5 + tx * 4) // 9 - dy * aside // long, (y * 5 + ty * 4) // 9 + dx * aside // long))
     places = np.array(found, dtype=np.int64)
     near = np.zeros(len(places), dtype=bool)
-    for centre, (wide, high) in zip(states.centres, states.axes, strict=True):
-        near |= within(places, centre, (wide + 140, high + 140))
+    for centre, outline in zip(states.centres, states.outlines, strict=True):
+        near |= outline.holds(places, centre, 140)
     return places[~near]
 
 
@@ -173,10 +180,9 @@ def _alone(states: States, lines: Ints, bends: Ints, target: int, size: tuple[in
     wanted = size[0] * 9 // 5
     cost = steps // 2 + np.maximum(0, wanted - steps) * 4 + np.abs(bends) * _BEND
     middles = boxes_around(lines[:, COARSE // 2], size)
-    for index, (centre, (a, b)) in enumerate(zip(states.centres, states.axes, strict=True)):
+    for index, (centre, outline) in enumerate(zip(states.centres, states.outlines, strict=True)):
         inner = lines[:, 1:-2] if index == target else lines
-        air = 10 if index == target else _CLEAR
-        touched = within(inner, centre, (a + air, b + air))
+        touched = outline.holds(inner, centre, 10 if index == target else _CLEAR)
         cost = cost + touched.any(axis=1) * _THROUGH
     covered = overlapping(middles, states.boxes).sum(axis=1)
     return cost + covered * _TOUCHING

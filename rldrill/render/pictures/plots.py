@@ -9,6 +9,7 @@ _GREYS = (0.82, 0.35, 0.6, 0.1)
 _CELL = 22.0
 _TALL = 48.0
 _AXIS = 240.0
+_ROW = 1.2 * SIZE
 
 
 def grid(picture: GridPicture) -> Scene:
@@ -28,7 +29,7 @@ def grid(picture: GridPicture) -> Scene:
 def bars(picture: Bars) -> Scene:
     """Bars in groups, one group for every name; what series a grey is stands above."""
     count = len(picture.series)
-    wide = max(16.0, *(text_width(label) + 2 for row in picture.labels for label in row))
+    wide = max(16.0, *(text_width(label) + 4 for row in picture.labels for label in row))
     group = max(count * wide, *(text_width(name) for name in picture.names)) + 12
     shapes: list[Shape] = []
     for index, name in enumerate(picture.names):
@@ -62,22 +63,33 @@ def bumps(picture: Bumps) -> Scene:
         return (value - low) * scale
 
     shapes: list[Shape] = [Path(((0, 0), (_AXIS, 0)))]
-    for index, centre in enumerate(picture.centres, 1):
+    for centre in picture.centres:
         near = [centre + reach * step / 24 for step in range(-24, 25)]
         shapes.append(Path(tuple((across(x), -_TALL * bump(picture, centre, x)) for x in near), width=0.8))
         shapes.append(Path(((across(centre), 0), (across(centre), 3))))
-        shapes.append(Caption((across(centre), -_TALL - 2), f"$φ_{{{index}}}$", "above"))
     at = across(picture.state)
     shapes.append(Path(((at, 0), (at, -_TALL)), dashed=True))
     shapes.append(Ellipse((at, 0), (2.2, 2.2), 0.0))
-    edge = 0.0
-    for centre in sorted(picture.centres):
-        label = f"${_plain(centre)}$"
-        if (left := across(centre) - text_width(label) / 2) >= edge:  # else there is no room for it
-            shapes.append(Caption((across(centre), 5), label, "below"))
-            edge = left + text_width(label) + 2
-    shapes.append(Caption((at, 6 + SIZE), f"$s = {_plain(picture.state)}$", "below"))
+    places = [across(centre) for centre in picture.centres]
+    above = [(x, f"$φ_{{{index}}}$") for index, x in enumerate(places, 1)]
+    below = [(x, f"${_plain(centre)}$") for x, centre in zip(places, picture.centres, strict=True)]
+    shapes += [Caption((x, -_TALL - 4 - row * _ROW), label, "above") for x, label, row in _rows(above)]
+    shapes += [Caption((x, 5 + row * _ROW), label, "below") for x, label, row in _rows(below)]
+    lowest = max(row for *_, row in _rows(below)) + 1
+    shapes.append(Caption((at, 5 + lowest * _ROW), f"$s = {_plain(picture.state)}$", "below"))
     return Scene(tuple(shapes))
+
+
+def _rows(labels: list[tuple[float, str]]) -> list[tuple[float, str, int]]:
+    """Labels from left to right, each in the first row where it does not run into the one before."""
+    edges: list[float] = []
+    found = []
+    for x, label in sorted(labels):
+        half = text_width(label) / 2
+        row = next((row for row, edge in enumerate(edges) if x - half >= edge), len(edges))
+        edges[row : row + 1] = [x + half + 2]
+        found.append((x, label, row))
+    return found
 
 
 def bump(picture: Bumps, centre: float, x: float) -> float:

@@ -73,18 +73,19 @@ class Bounds(Struct, frozen=True):
 
 
 class Scene(Struct, frozen=True):
-    """Shapes, later ones over earlier ones."""
+    """Shapes, later ones over earlier ones; ``air`` is what is left free on the right, for what stands beside it."""
 
     shapes: tuple[Shape, ...]
+    air: float = 0.0
 
     @property
     def box(self) -> Bounds:
-        """The smallest rectangle around everything."""
+        """The smallest rectangle around everything, and the air beside it."""
         boxes = [bounds_of(shape) for shape in self.shapes]
         return Bounds(
             min(box.left for box in boxes),
             min(box.top for box in boxes),
-            max(box.right for box in boxes),
+            max(box.right for box in boxes) + self.air,
             max(box.bottom for box in boxes),
         )
 
