@@ -3,10 +3,10 @@
 A curve is quadratic, from an action's dot to the outline of the state that it leads to.
 """
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 Ints: TypeAlias = NDArray[np.int64]
@@ -17,8 +17,7 @@ FINE, COARSE = 48, 8
 _HALVED = 6
 
 
-@dataclass(frozen=True)
-class Outline:
+class Outline(Struct, frozen=True):
     """The shape that is drawn for a state: an ellipse, or a rectangle, with its half width and half height."""
 
     wide: int

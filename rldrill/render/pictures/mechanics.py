@@ -2,9 +2,10 @@
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
-from dataclasses import dataclass
 from itertools import pairwise
 from math import asin, ceil, copysign, cos, degrees, dist, radians, sin
+
+from msgspec import Struct
 
 from rldrill.problems.pictures import Arm, Pendulum
 from rldrill.render.pictures.scene import (
@@ -32,8 +33,7 @@ _STEP, _OVER = 1.5, 60
 _APART, _NEAR = 5.0, 15
 
 
-@dataclass(frozen=True)
-class _Wanted:
+class _Wanted(Struct, frozen=True):
     """A label, its joint or the two of its link, and where it may stand."""
 
     words: str
