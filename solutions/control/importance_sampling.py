@@ -1,6 +1,5 @@
 """The ratio of every episode, then its return, then both estimates."""
 
-from collections.abc import Callable
 from typing import Any
 
 from rldrill.problems.control.importance_sampling import Given
@@ -17,7 +16,6 @@ from rldrill.solutions.sheet.control import (
     RATIOS_FORGOTTEN,
     WEIGHTED_FOR_ORDINARY,
     WEIGHTED_IMPORTANCE_SAMPLING,
-    Ri,
 )
 from rldrill.solutions.sheet.fundamentals import RETURN
 from rldrill.solutions.work import Work
@@ -39,21 +37,15 @@ def solve(given: Given, work: Work) -> None:
     ratios = tuple(work.step(IMPORTANCE_RATIO, i=number, **run, **known) for number, run in enumerate(runs, 1))
     answer = work.answer(ratios if len(ratios) > 1 else ratios[0])
     ratios = answer if len(ratios) > 1 else (answer,)
-    work.say("The return of an episode, $i$, is $R_{0, i}$:")
-    returns = {
-        number: work.step(RETURN, into=_of_episode(number), t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
-        for number, run in enumerate(runs, 1)
-    }
+    returns = {}
+    for number, run in enumerate(runs, 1):
+        work.say(f"The return $R_{{0, {number}}}$ of episode {number}:")
+        returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
     work.say(f"Over the $n = {len(runs)}$ episode{'s' if len(runs) > 1 else ''}:")
     weighing: dict[str, Any] = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}
     work.answer(work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))
     if len(runs) > 1:
         work.answer(work.step(WEIGHTED_IMPORTANCE_SAMPLING, **weighing))
-
-
-def _of_episode(number: int) -> Callable[[Any], Any]:
-    """What the return of an episode is called."""
-    return lambda _: Ri(number)
 
 
 def oracle(given: Given) -> Answers:

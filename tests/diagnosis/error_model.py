@@ -13,14 +13,13 @@ What wrong procedures give is worked out family by family in ``by_hand.py``.
 
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add, mul
 from typing import Any
 
 import sympy
 from flint import fmpq
-from msgspec.structs import replace
 
 from rldrill.problems.parts import Policy
 from rldrill.solutions.answers.kinds import answer_kind

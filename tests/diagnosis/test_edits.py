@@ -13,7 +13,7 @@ from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bayes import BAYES
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_V, V_FROM_Q
 from rldrill.solutions.sheet.policy_gradient import SCORE_FUNCTION
-from rldrill.solutions.sheet.temporal_difference import TD_ZERO
+from rldrill.solutions.sheet.temporal_difference import N_STEP_RETURN, TD_ZERO
 
 
 def written(formula) -> dict[str, set[str]]:
@@ -45,6 +45,11 @@ def test_an_update_is_edited_as_a_student_errs(kind: str, line: str) -> None:
 
 def test_a_quotient_is_turned_upside_down() -> None:
     assert "1/((p(z|h) p(h))/(Σₕ′ p(z|h′) p(h′)))" in written(BAYES)["upside-down"]
+
+
+def test_a_sum_begins_one_later_or_ends_one_earlier_or_later() -> None:
+    sums = ("Σᵢ₌₀₊₁ⁿ⁻¹", "Σᵢ₌₀ⁿ⁻¹⁻¹", "Σᵢ₌₀ⁿ⁻¹⁺¹")  # of Σᵢ₌₀ⁿ⁻¹
+    assert written(N_STEP_RETURN)["range"] == {f"{each} γⁱrₜ₊₁₊ᵢ + γⁿV(sₜ₊ₙ)" for each in sums}
 
 
 def test_the_mean_stands_for_the_maximum() -> None:

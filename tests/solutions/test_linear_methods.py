@@ -591,6 +591,13 @@ def test_a_derivative_keeps_its_denominator_until_the_numbers_are_in() -> None:
     assert "∂f₂/∂θ = −(mgl cos(θ))/(ml²)" in text
 
 
+def test_a_denominator_that_holds_the_letter_is_differentiated_too() -> None:
+    given_ = {"dynamics": {"x": "u/(1 + x)"}, "constants": {}, "state": {"x": 1}, "action": {"u": 2}}
+    text = str(rldrill.read({"family": "linearise", "given": given_}).working("a"))
+    assert "∂f/∂x = −u/(1 + x)²" in text
+    assert "A = −1/2" in text
+
+
 @given(seeds, st.integers(1, 2))
 @settings(deadline=None, max_examples=15)
 def test_one_state_and_one_action_need_no_matrices(seed: int, level: int) -> None:
