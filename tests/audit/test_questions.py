@@ -92,6 +92,13 @@ def test_figures_of_sound_draws_bring_no_complaint_and_of_poor_ones_do() -> None
     assert figures.data()["different"] == 2
 
 
+def test_the_largest_number_of_ninety_five_in_a_hundred_draws() -> None:
+    figures = Figures(largest=list(range(100, 0, -1)), attempts=[1], rates=[1.0])
+    # Of the numbers 1 to 100 the first 95 are below 96, and half are below 50.5.
+    data = figures.data()
+    assert (data["largest"], data["largest_of_95"]) == (50.5, 96)
+
+
 def test_how_often_yes_is_right_is_a_share_of_the_questions() -> None:
     drawn = [draw("markov-property", 1, seed) for seed in range(4)]
     figures = Figures()

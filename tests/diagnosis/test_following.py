@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 
 import rldrill
-from rldrill.solutions.diagnosis.written_line import numbers_typed
+from rldrill.solutions.diagnosis.written_line import _apart, numbers_typed
 
 # As in test_diagnosing.py: cave ← 10, floor ← 5, cave ← 17/4.
 RUN = {
@@ -153,3 +153,9 @@ def test_a_wrong_reward_is_held_against_that_of_its_time(line: str, where: str) 
     followed = rldrill.read(ROLLOUT).follow([line])
     assert followed.lines[0].standing == "departs"
     assert where in followed.sentence
+
+
+def test_lines_are_as_far_apart_as_numbers_stand_in_one_alone() -> None:
+    one, other = (Counter(map(Fraction, numbers)) for numbers in (("1/2", "3"), ("1/2", "4", "4")))
+    assert _apart(one, other) == 3  # the 3, and 4 twice
+    assert _apart(one, one) == 0

@@ -170,6 +170,9 @@ def test_anki_reads_the_deck_and_knows_each_problem_by_its_id(tmp_path: Path) ->
         notes: list[Any] = database.execute("select guid, flds from notes order by id").fetchall()
     assert [fields.split("\x1f")[0] for _, fields in notes] == [rldrill.load(name).id for name in PROBLEMS]
     assert len({guid for guid, _ in notes}) == len(PROBLEMS)
+    for (_, fields), name in zip(notes, PROBLEMS, strict=True):
+        labels = [f"({part.label})" for part in rldrill.load(name).parts]
+        assert all((f"<b>{label}" in fields) == (len(labels) > 1) for label in labels)
     assert package == written("anki", tmp_path), "the same exam is the same file"
 
 

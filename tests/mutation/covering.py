@@ -43,6 +43,7 @@ class Covering:
     def tests(self, source: Source, mutation: Mutation) -> frozenset[str]:
         """The tests that run the innermost statement with the change, or what the module makes of it.
 
+        A function whose results are kept runs for the first test that calls it alone: so all that call it count.
         There are none where that is not known: for what is read when it is imported, and used by other modules alone.
         """
         measured = self._paths.get(source.path)
@@ -52,6 +53,7 @@ class Covering:
         contexts = self._data.contexts_by_lineno(measured)
         inside = _in_a_function(source.tree, line)
         places = [(_innermost(source.tree, line), line)] if inside else list(_using(source.tree, line))
+        places += _calling_what_is_kept(source.tree, line)
         noted = (each for first, last in places for at in range(first, last + 1) for each in contexts.get(at, ()))
         return frozenset(context.rpartition("|")[0] for context in noted) - {""}
 
@@ -78,15 +80,37 @@ class Covering:
         return frozenset().union(*(tests for tests in running if len(tests) <= _FEW))
 
 
-def _around(tree: ast.Module, line: int) -> range:
-    """The lines of the innermost function that a line stands in; none where it stands in none."""
+def _function(tree: ast.Module, line: int) -> ast.FunctionDef | None:
+    """The innermost function that a line stands in."""
     inside = [
         node
         for node in ast.walk(tree)
         if isinstance(node, ast.FunctionDef) and node.body[0].lineno <= line <= (node.end_lineno or 0)
     ]
-    innermost = max(inside, key=lambda node: node.lineno, default=None)
+    return max(inside, key=lambda node: node.lineno, default=None)
+
+
+def _around(tree: ast.Module, line: int) -> range:
+    """The lines of the innermost function that a line stands in; none where it stands in none."""
+    innermost = _function(tree, line)
     return range(0) if innermost is None else range(innermost.lineno, (innermost.end_lineno or 0) + 1)
+
+
+def _calling_what_is_kept(tree: ast.Module, line: int) -> Iterator[tuple[int, int]]:
+    """The lines of the module that call a function with a cache which the line stands in, or call such callers."""
+    names, lines = set[str](), [line]
+    while lines:
+        function = _function(tree, lines.pop())
+        if (
+            function is None
+            or function.name in names
+            or "cache" not in "".join(map(ast.unparse, function.decorator_list))
+        ):
+            continue
+        names.add(function.name)
+        for first, last in _mentioning(tree, {function.name}):
+            yield first, last
+            lines.append(last)
 
 
 def _in_a_function(tree: ast.Module, line: int) -> bool:

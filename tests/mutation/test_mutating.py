@@ -133,6 +133,25 @@ def test_only_tests_that_run_the_statement_come_into_question_where_they_are_kno
     assert choice.tests(Source.read(tmp_path, "rldrill/tax.py"), constant) == ids[:2]  # who uses it is not known
 
 
+def test_a_function_whose_results_are_kept_is_run_by_all_that_call_it(tmp_path: Path) -> None:
+    (tmp_path / "rldrill").mkdir()
+    text = "@cache\ndef tax():\n    return 3\n\ndef fee():\n    return tax()\n\ndef fine():\n    return 4\n"
+    (tmp_path / "rldrill" / "tax.py").write_text(text)
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_tax.py").write_text("def test_a(): ...\ndef test_b(): ...\ndef test_c(): ...")
+    ids = tuple(f"tests/test_tax.py::test_{letter}" for letter in "abc")
+    data = CoverageData(str(tmp_path / "noted"))
+    for test, lines in zip(ids, ([3, 6], [6], [9]), strict=True):
+        data.set_context(f"{test}|run")
+        data.add_lines({"/elsewhere/rldrill/tax.py": lines})
+    data.write()
+    choice = Choice(tmp_path, ids, Covering(tmp_path / "noted"))
+    source = Source.read(tmp_path, "rldrill/tax.py")
+    kept, fine = mutations(source)
+    assert set(choice.tests(source, kept)) == {ids[0], ids[1]}
+    assert choice.tests(source, fine) == (ids[2],)
+
+
 def test_of_what_other_modules_use_those_come_first_that_run_rare_lines_there(tmp_path: Path) -> None:
     (tmp_path / "rldrill").mkdir()
     (tmp_path / "rldrill" / "rates.py").write_text("with x:\n    RATE = 3\n    OTHER = 4\n")
