@@ -665,3 +665,16 @@ def test_what_a_program_wrote_in_a_problem_file_is_told_once(folder: Path) -> No
     data = json.loads(run(path, "--json")[1])
     assert data["notes"] == {name: ["read 0.3333333333333333 as 1/3"]}
     assert "notes" not in str(data["students"])
+
+
+@pytest.mark.parametrize(("lines", "more"), [(50, None), (51, "and 1 more"), (53, "and 3 more")])
+def test_fifty_refusals_are_told_and_how_many_more_there_are(tmp_path: Path, lines: int, more: str | None) -> None:
+    path = tmp_path / "answers.jsonl"
+    row = '{{"problem": "no-family-{}/1/7", "part": "a", "answer": "1"}}\n'
+    path.write_text("".join(map(row.format, range(lines))))
+    _, _, told = run(path)
+    sentences = [line for line in told.splitlines() if "no-family" in line]
+    assert len(sentences) == 50
+    assert [line for line in told.splitlines() if " more; " in line] == (
+        [f"rldrill: {more}; --report json=FILE holds all of them."] if more else []
+    )

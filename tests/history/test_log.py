@@ -60,7 +60,7 @@ def writer(path: Path, name: str, number: str) -> subprocess.Popen[str]:
 
 
 def test_what_is_written_is_read_again(tmp_path: Path) -> None:
-    path = tmp_path / "deep" / "history.db"
+    path = tmp_path / "deep" / "deeper" / "history.db"  # a fresh home has neither
     assert log.read(path) == ()
     assert log.append(path, [SECOND]) == 1
     assert log.append(path, [FIRST]) == 1
