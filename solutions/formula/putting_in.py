@@ -240,10 +240,12 @@ def long_sum(expression: Expr) -> Expr:
 
 #: So many products are not worked out and added up at once.
 _MANY_PRODUCTS = 3
+#: Factors that make no product. They are compared as they are: the size of a long polynomial is no quick question.
+_UNITS = (sympy.S.One, sympy.S.NegativeOne)
 
 
 def _is_product(term: Expr) -> bool:
-    return len([factor for factor in Mul.make_args(term) if abs(factor) != 1]) > 1 and evaluated(term).is_Rational
+    return len([factor for factor in Mul.make_args(term) if factor not in _UNITS]) > 1 and evaluated(term).is_Rational
 
 
 def _with_sign(number: Expr) -> Expr:
