@@ -88,7 +88,7 @@ def slots(
         )
     for index in topics:
         weights = [blueprint.problems[other].count or _SHARE for other in topics if other >= index]
-        time = None if blueprint.minutes is None else max(1, rest * weights[0] // sum(weights))
+        time = None if blueprint.minutes is None else rest * weights[0] // sum(weights)
         found = _of_topics(blueprint, index, draws(keys[index]), time, versions)
         rest -= sum(slot.minutes for slot in found)
         named[index] = found

@@ -27,7 +27,7 @@ class Display:
         self._typed = ask
         self._spelling = Spelling(console.encoding)
         self._plain = plain
-        self._shown: list[RenderableType] = [Text(said)] if said else []
+        self._shown: list[tuple[RenderableType, bool]] = [(Text(said), False)] if said else []
         self._begun = False
 
     @property
@@ -45,8 +45,8 @@ class Display:
     def redraw(self) -> None:
         """Show once more what was printed and typed since the page was turned, as wide as the window is now."""
         self.console.control(Control.home(), Control.clear())
-        for content in self._shown:
-            self.console.print(content, width=self.width)
+        for content, whole in self._shown:
+            self._show(content, whole=whole)
 
     def ask(self, prompt: Prompt, keys: str = "") -> str:
         """Ask for a line, or for one of the keys, which need no Enter."""
@@ -55,18 +55,13 @@ class Display:
             return self._spelling.plain(prompt() if callable(prompt) else prompt)
 
         typed = self._typed(written if callable(prompt) else written(), keys)
-        self._shown.append(Text(f"{written()}{typed}"))
+        self._shown.append((Text(f"{written()}{typed}"), False))
         return typed
 
-    def print(self, content: RenderableType = "") -> None:
-        """Print."""
-        self._shown.append(content)
-        self.console.print(content, width=self.width)
-
-    def whole(self, content: RenderableType) -> None:
-        """Print a line with a path or a command, which is not broken, so that it can be copied."""
-        self._shown.append(content)
-        self.console.print(content, soft_wrap=True)
+    def print(self, content: RenderableType = "", *, whole: bool = False) -> None:
+        """Print; a ``whole`` line, one with a path or a command, is not broken, so that it can be copied."""
+        self._shown.append((content, whole))
+        self._show(content, whole=whole)
 
     def indented(self, content: RenderableType) -> None:
         """Print a little to the right."""
@@ -79,3 +74,6 @@ class Display:
         grid.add_column(overflow="fold")
         grid.add_row(words(sign), content)
         self.indented(grid)
+
+    def _show(self, content: RenderableType, *, whole: bool) -> None:
+        self.console.print(content, width=None if whole else self.width, soft_wrap=whole)

@@ -176,6 +176,8 @@ class Plan:
             several = len({self._topic[skill.family] for skill in self._order}) > 1
             of_topics = " of the first topics" if several else ""
             asked = f"{self._number} problems, easy ones{of_topics} before others{ahead}."
+            if self._number == 1:
+                asked = f"an easy problem{ahead}."
             if not kept:
                 return f"What you answered before is not known: {asked}"
             return f"Your first quiz: {asked} What you answer is kept, and decides what comes next."

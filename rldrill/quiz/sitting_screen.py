@@ -59,7 +59,7 @@ class SittingScreen:
         self._plain = plain
         self._console = console
         self._display = Display(console, ask, plain=plain)
-        self._ask, self._print, self._whole = self._display.ask, self._display.print, self._display.whole
+        self._ask, self._print = self._display.ask, self._display.print
         self._now = now
         self._kept, self._told = True, False
 
@@ -81,7 +81,7 @@ class SittingScreen:
             self._keep(sitting)  # from now on the time is known, whatever happens
             if not self._parts(sitting):
                 sitting.save()
-                self._whole(words("Kept in ", (str(sitting.path), "bold"), "; the same command goes on."))
+                self._print(words("Kept in ", (str(sitting.path), "bold"), "; the same command goes on."), whole=True)
                 return False
             if sitting.handed_in is None:
                 sitting.handed_in = self._now()
@@ -278,13 +278,13 @@ class SittingScreen:
                     self._print(words(("  The answer:", "dim")))
                     self._display.indented(renderable(exercise.answer(own)))
         if not self._kept:
-            self._whole(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
+            self._print(words((f"Your answers could not be written to {sitting.path}.", "yellow")), whole=True)
             return
         again = ["rldrill", "verify", str(sitting.path)]
         if sitting.manifest is not None:
             again += ["--for", str(sitting.manifest)]
             again += ["--version", sitting.version.code] if len(sitting.exam.versions) > 1 else []
-        self._whole(words(f"Your answers are in {sitting.path}. To grade them again: {shlex.join(again)}"))
+        self._print(words(f"Your answers are in {sitting.path}. To grade them again: {shlex.join(again)}"), whole=True)
 
     def _graded(self, name: str, part: GradedPart, kind: Kind) -> None:
         says = "not answered" if part.verdict is None else by_name(part.verdict.says, kind)

@@ -357,7 +357,7 @@ def _inner(term: Expr) -> Expr:
             terms = [_term(part) if _of_matrices(part) else _worked_out(part) for part in rest[0].args]
             return Mul(-1, Add(*terms, evaluate=False), evaluate=False)
         worked_out = [(factor, _inner(factor)) for factor in term.args]
-        kept = [_in_a_product(new) for old, new in worked_out if not (new == 1 and is_below(old))]
+        kept = [new for old, new in worked_out if not (new == 1 and is_below(old))]
         factors = _without_ones(_worked_out_above(kept) if kept != list(term.args) else kept)
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
@@ -388,11 +388,6 @@ def _is_rational(factor: Expr) -> bool:
 def is_below(factor: Expr) -> bool:
     """Whether a factor stands below the line, or is an inverse."""
     return bool(factor.is_Pow and factor.args[1] == -1)
-
-
-def _in_a_product(factor: Expr) -> Expr:
-    """A factor that is minus something, in brackets."""
-    return Negative(factor) if factor.is_Mul and factor.args[0] == -1 else factor
 
 
 def _worked_out(expression: Expr) -> Expr:

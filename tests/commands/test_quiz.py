@@ -256,6 +256,13 @@ def test_an_open_bracket_goes_on_in_a_real_terminal(tmp_path: Path) -> None:
     running.child.close(force=True)
 
 
+@pytest.mark.parametrize(("minutes", "says"), [("1", "an easy problem"), ("5", "an easy problem"), ("6", "2 problems")])
+def test_minutes_have_room_for_one_problem_at_least(tmp_path: Path, minutes: str, says: str) -> None:
+    running = Terminal(tmp_path, 100, "--minutes", minutes)
+    running.sees(f"Your first quiz: {says}")
+    running.child.close(force=True)
+
+
 def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
     prior = dict.fromkeys("abc", 0.3333333333333333)
     likelihood = {"hit": dict.fromkeys("ab", "1/2") | {"c": "1/4"}, "miss": dict.fromkeys("ab", "1/2") | {"c": "3/4"}}

@@ -196,6 +196,13 @@ def test_named_problems_may_not_take_all_of_the_time_from_the_topics() -> None:
     assert len(slots(Blueprint(problems=(named,), seed=1, minutes=10), 1)) == 4
 
 
+def test_where_a_minute_is_left_every_topic_has_a_problem_all_the_same() -> None:
+    named, two = Entry(id="td-zero/2/234"), [Entry(topic=("bellman",)), Entry(topic=("control",))]
+    (alone,) = slots(Blueprint(problems=(named,), seed=1), 1)
+    found = slots(Blueprint(problems=(named, *two), seed=1, minutes=int(alone.minutes) + 1), 1)
+    assert [family(slot.family).topic for slot in found[1:]] == ["bellman", "control"]
+
+
 def test_a_title_may_have_so_many_signs_and_no_more() -> None:
     assert blueprint("bellman").but(title="x" * LONGEST_TITLE).title == "x" * LONGEST_TITLE
     with pytest.raises(UsageError, match=f"The title has {LONGEST_TITLE + 1} characters; give one of at most"):

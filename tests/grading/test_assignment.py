@@ -154,12 +154,15 @@ def test_an_exam_for_people_knows_them(tmp_path: Path) -> None:
     ]
 
 
-@pytest.mark.parametrize(("which", "points"), [("last", 0), ("first", 1), ("best", 1)])
-def test_of_several_hand_ins_one_counts(tmp_path: Path, which: str, points: int) -> None:
+@pytest.mark.parametrize(("which", "right", "points"), [
+    ("first", 0, 1), ("best", 0, 1), ("last", 1, 0), ("first", 1, 0), ("best", 1, 1), ("last", 2, 1), ("best", 2, 1),
+])  # fmt: skip
+def test_of_several_hand_ins_one_counts(tmp_path: Path, which: str, right: int, points: int) -> None:
     path, made = exam(tmp_path)
     worth = made.versions[0].exercises[0].parts[0].points
     files = []
-    for number, typed in enumerate((keys(made.versions[0])["1", "a"], "1000")):
+    for number in range(3):
+        typed = keys(made.versions[0])["1", "a"] if number == right else "1000"
         files.append(tmp_path / f"{number}.csv")
         files[-1].write_text(f'{HEAD}Ann,,1,a,"{typed}"\n')
     report = verify(files, Settings(assignment=Assignment(path), hand_ins=which))

@@ -154,6 +154,7 @@ def test_the_first_line_says_what_and_why() -> None:
         answered(value, NOW - 20 * DAY, "wrong", "forgot-gamma"),
     ]
     assert Plan(ORDER, [], 10, NOW).says().startswith("Your first quiz: 10 problems")
+    assert Plan(ORDER, [], 1, NOW).says().startswith("Your first quiz: an easy problem. What you")
     assert Plan(ORDER, [], 10, NOW).says(kept=False).startswith("What you answered before is not known: 10 problems")
     assert "; 9 days to the exam." in Plan(ORDER, [], 10, NOW, (NOW + 9 * DAY).date()).says()
     assert Plan(ORDER, log, 10, NOW).says() == (

@@ -67,6 +67,17 @@ def right(sitting: Sitting) -> list[str]:
     return [str(next(iter(answer.values()))) if isinstance(answer, dict) else str(answer) for answer in answers]
 
 
+def test_a_path_is_one_line_however_narrow_the_window_is_and_stays_one_when_the_window_changes(tmp_path: Path) -> None:
+    planned = exam()
+    path = tmp_path / "answers of the whole course in the order of their names.toml"
+    hand, console = Hand("1"), Console(width=40, record=True, markup=False, highlight=False)
+    screen = SittingScreen(console, hand.ask, hand.now)
+    assert not screen.run(Sitting(planned, planned.versions[0], path, START))
+    assert f"Kept in {path}; the same command goes on." in console.export_text(clear=True).splitlines()
+    screen.redraw()
+    assert f"Kept in {path}; the same command goes on." in console.export_text().splitlines()
+
+
 def test_right_answers_earn_everything(sitting: Sitting) -> None:
     handed_in, text, hand = sit(sitting, *right(sitting), "yes")
     assert handed_in
