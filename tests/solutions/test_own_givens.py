@@ -1,0 +1,93 @@
+"""What people bring and no family draws: ways to give and to ask, each with its answers as they are worked by hand."""
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import rldrill
+
+#: A sensor by hypothesis: dry is 1/5·3/5 = 3/25 for water and 4/5·4/5 = 16/25 for rock, 19/25 together.
+SENSOR = {
+    "prior": {"water": "1/5", "rock": "4/5"},
+    "likelihood": {"water": {"dry": "3/5", "wet": "2/5"}, "rock": {"dry": "4/5", "wet": "1/5"}},
+    "measurements": ["dry"],
+}
+#: A return that is sought: 6 + 1/4·(x − 6) = 17/4, so x − 6 = −7.
+SOUGHT = {"known": "17/4", "values": {"medium": 6}, "alpha": "1/4", "visits": [["medium", "x"]]}
+#: With a second return of 2: 3/4·(9/2 + x/4) + 1/2 = 31/8 + 3x/16 = 17/4, so 3x/16 = 3/8.
+SOUGHT_FIRST = {**SOUGHT, "visits": [["medium", "x"], ["medium", 2]]}
+#: f₁ = (x² + y)x at (1, 2): ∂f₁/∂x = 3x² + y = 5, ∂f₁/∂y = x = 1; f₂ = u.
+CUBIC = {
+    "dynamics": {"x": "D*x", "y": "u"}, "where": {"D": "x^2 + y"}, "state": {"x": 1, "y": 2}, "action": {"u": 0},
+}  # fmt: skip
+#: Returns 4 + 7/2, 5 + 2 and 4; first 5 + 1/5·5/2 = 11/2, then 11/2 − 1/5·3/2; 6 + 1/5·1.
+PAIRS = {
+    "trajectory": {
+        "states": ["a", "b", "a", "end"], "actions": ["l", "r", "l"], "rewards": [4, 5, 4], "terminal": ["end"],
+    },
+    "values": {"a": {"l": 5}, "b": {"r": 6}}, "alpha": "1/5", "gamma": "1/2", "visits": "every",
+}  # fmt: skip
+#: One sample, and how small ε must be is asked: ρ = 1/4 : 1/2, and min(2, 4·(1 − ε)) is the unclipped 2 for ε ≤ 1/2.
+SAMPLE = {
+    "samples": [{
+        "state": "rock", "action": "drift", "old": "1/2", "preferences": {"sail": "ln 3", "drift": 0}, "advantage": 4,
+    }],
+}  # fmt: skip
+
+BROUGHT: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
+    "a sensor by hypothesis": ("bayes-rule", SENSOR, {"a": {"water": Fraction(3, 19), "rock": Fraction(16, 19)}}),
+    "the only return is sought": ("sample-average", SOUGHT, {"a": Fraction(-1)}),
+    "the first return is sought": ("sample-average", SOUGHT_FIRST, {"a": Fraction(2)}),
+    "a name in the dynamics": (
+        "linearise",
+        CUBIC,
+        {"a": ((Fraction(5), Fraction(1)), (Fraction(0), Fraction(0))), "b": ((Fraction(0),), (Fraction(1),))},
+    ),
+    "a name in affine dynamics": (  # C = F − A_Δ s̄ = 1 + 3/10 − (3/2 + 1/5)
+        "linearise-affine",
+        {**CUBIC, "step": "1/10"},
+        {
+            "a": ((Fraction(-2, 5),), (Fraction(0),)),
+            "b": (
+                (Fraction(3, 2), Fraction(1, 10), Fraction(-2, 5)),
+                (Fraction(0), Fraction(1), Fraction(0)),
+                (Fraction(0), Fraction(0), Fraction(1)),
+            ),
+            "c": ((Fraction(0),), (Fraction(1, 10),), (Fraction(0),)),
+        },
+    ),
+    "pairs are visited": (
+        "monte-carlo",
+        PAIRS,
+        {
+            "a": (Fraction(15, 2), Fraction(7), Fraction(4)),
+            "b": {"a": {"l": Fraction(26, 5)}, "b": {"r": Fraction(31, 5)}},
+        },
+    ),
+    "one sample without a range": ("ppo-clip", SAMPLE, {"a": Fraction(1, 2), "b": Fraction(0), "c": Fraction(2)}),
+}
+
+
+@pytest.mark.parametrize("brought", BROUGHT)
+def test_what_is_brought_has_the_answers_worked_by_hand(brought: str) -> None:
+    family, given, answers = BROUGHT[brought]
+    assert rldrill.read({"family": family, "given": given}).answers() == answers
+
+
+@pytest.mark.parametrize(
+    ("family", "given", "says"),
+    [
+        ("linearise", {"dynamics": {"x": "tan(y)", "y": "u"}, "state": {"x": 0, "y": "pi/2"}, "action": {"u": 0}},
+         "do not exist at the operating point"),
+        ("lqr-infinite", {"A": [[1]], "B": [[0]], "Q": [[9]], "R": [[0]]}, "some action costs nothing"),
+        ("lqr-infinite", {"A": [["1/2"]], "B": [[1]], "Q": [[0]], "R": [[0]]}, "some action costs nothing"),
+        ("lqr-infinite", {"A": [[1, 1], [0, 1]], "B": [[0], [0]], "Q": [[1, 0], [0, 1]], "R": [[0]]},
+         "some action costs nothing"),
+        ("lqr-infinite", {"A": [[2, 1], [0, 3]], "B": [[0], [0]], "Q": [[1, 0], [0, 1]], "R": [[1]]},
+         "no action keeps the system from running away"),
+    ],
+)  # fmt: skip
+def test_what_has_no_answer_is_refused_with_the_reason(family: str, given: dict[str, Any], says: str) -> None:
+    with pytest.raises(rldrill.UserError, match=says):
+        rldrill.read({"family": family, "given": given})
