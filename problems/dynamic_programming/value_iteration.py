@@ -166,9 +166,7 @@ def _to_tie(rng: Draws, setting: Setting) -> Swept:
     pays_more = rng.choice((1, -1))  # the first action at once, or the second
     while True:
         mdp = draw_model(rng, setting, Shape(states=3, actions=2, branches=1, reward=8))
-        first = {
-            state: max(worth(mdp, (state, a), {}, Fraction(0)) for a in mdp.actions[state]) for state in mdp.states
-        }
+        first = {state: max(worth(mdp, (state, a), {}, Fraction()) for a in mdp.actions[state]) for state in mdp.states}
         for tie in rng.shuffled(mdp.states):
             one, other = (next(row for row in mdp.transitions if row[:2] == (tie, a)) for a in mdp.actions[tie])
             gain = Fraction(one.reward) - Fraction(other.reward)

@@ -256,8 +256,8 @@ def _of_sum(part: Expr) -> Iterator[Change]:
         if terms[0] == 1 and terms[1].is_Mul and terms[1].args[0] == -1:
             yield "complement", _unsigned(terms[1]), part, _unsigned(terms[1])
     for place, term in enumerate(terms):
-        sign, factors = (-1, term.args[1:]) if term.is_Mul and term.args[0] == -1 else (1, term.args)
-        if not term.is_Mul or len(factors) < 2 or sign == -1:
+        factors = term.args
+        if not term.is_Mul or factors[0] == -1:
             continue
         # r + γV read as γ(r + V): the bracket begins too early
         for last, factor in enumerate(factors[:-1]):

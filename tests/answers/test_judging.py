@@ -322,6 +322,14 @@ def test_a_terminal_state_may_be_given_its_zero() -> None:
     assert "'overheated' is terminal" in verdicts("cool: 3.5, warm: 2.5, overheated: -10")[0].says
 
 
+def test_an_action_in_a_terminal_state_may_be_given_its_zero() -> None:
+    # Q(a, left) = 0 + 1/2·(4 + 0 − 0): what follows is the end, whose actions are worth nothing.
+    moves = {"states": ["a", "end"], "actions": ["left"], "rewards": [4], "terminal": ["end"]}
+    q = {"a": {"left": 0, "right": 0}}
+    solution = problem("q-learning", trajectory=moves, values=q, alpha="1/2", gamma="1/2")
+    assert judge(solution, "a", "Q(a, left) = 2, Q(end, left) = 0").outcome is Outcome.RIGHT
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [

@@ -43,6 +43,12 @@ def test_an_update_is_edited_as_a_student_errs(kind: str, line: str) -> None:
     assert line in written(TD_ZERO)[kind]
 
 
+def test_a_bracket_begins_too_early_behind_a_factor_and_never_behind_a_minus_alone() -> None:
+    brackets = written(TD_ZERO)["bracket"]
+    assert "V(sₜ) + α(−V(sₜ) + γ(rₜ₊₁ + V(sₜ₊₁)))" in brackets
+    assert not any("−(" in line for line in brackets)
+
+
 def test_a_quotient_is_turned_upside_down() -> None:
     assert "1/((p(z|h) p(h))/(Σₕ′ p(z|h′) p(h′)))" in written(BAYES)["upside-down"]
 

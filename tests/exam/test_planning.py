@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import pytest
 
-from rldrill.exam import expected
+from rldrill.exam import drawn, expected
 from rldrill.exam.blueprint import LONGEST_TITLE, Blueprint, Entry
 from rldrill.exam.exam import points_of
 from rldrill.exam.fairness import Fairness, content, fairness, told
@@ -237,3 +237,12 @@ def test_of_a_family_with_too_few_answers_another_level_is_taken_where_none_is_a
 def test_minutes_are_missed_by_more_than_a_tenth(minutes: tuple[int, int], wanted: int, says: str) -> None:
     told = Fairness(0, 0, minutes, 0.0, {}, {}, {}).says_what_is_missed(wanted)
     assert told == (f"{says} ask for other minutes, or name more topics or problems" if says else "")
+
+
+@pytest.mark.parametrize(("versions", "where"), [(49, "here"), (50, "apart")])
+def test_many_versions_are_planned_in_a_process_of_its_own(
+    monkeypatch: pytest.MonkeyPatch, versions: int, where: str
+) -> None:
+    monkeypatch.setattr("rldrill.exam.drawn._drawn", lambda *_: "here")
+    monkeypatch.setattr("rldrill.exam.drawn.apart", lambda *_: "apart")
+    assert drawn.drawn(blueprint("bellman", versions=versions), "0") == where

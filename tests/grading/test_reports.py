@@ -13,6 +13,7 @@ import jsonschema
 import pytest
 import xmlschema
 from junitparser import JUnitXml
+from msgspec.structs import replace
 from typer.testing import CliRunner
 
 from rldrill.cli import app
@@ -148,13 +149,23 @@ def test_what_is_in_several_files_of_a_submission_counts_together(tmp_path: Path
 
 def test_annotations_are_ten_at_most_and_begin_no_commands_of_their_own(report: Report) -> None:
     lines = github.written(report, "reason").splitlines()
-    assert len(lines) <= github.MOST
+    assert len(lines) <= 10
     for line in lines:
         assert re.fullmatch(r"::(error|notice) (file=[^:,]*,)?(line=\d+,)?title=[^:,]*::[^\r\n]*", line), line
     assert any("line=8," in line and "neither a problem ID" in line for line in lines)
     table = github.summary(report, "reason")
     assert "<script" not in table
     assert table.count("\n| ") == 1 + len(report.students) + 1 + len(report.parts)
+
+
+@pytest.mark.parametrize(("found", "more"), [(10, 0), (11, 2), (30, 21)])
+def test_of_more_than_ten_annotations_the_last_tells_how_many_are_left_out(
+    report: Report, found: int, more: int
+) -> None:
+    ours = replace(report, students=(), refused=report.refused[:1] * found)
+    *_, last = lines = github.written(ours, "reason").splitlines()
+    assert len(lines) == 10
+    assert (f"{more} more are in the summary" in last) == bool(more)
 
 
 def test_a_share_that_is_not_enough_is_never_shown_as_if_it_were() -> None:

@@ -6,7 +6,7 @@ from rldrill.grading.report import MarkedPart, Report, StudentReport
 from rldrill.grading.reports.said import one_line, sentence
 
 #: GitHub shows no more annotations of a step.
-MOST = 10
+_MOST = 10
 #: A summary may have a mebibyte; what is longer is cut between rows.
 _LONGEST = 1_000_000
 
@@ -14,8 +14,8 @@ _LONGEST = 1_000_000
 def written(report: Report, feedback: str) -> str:
     """The commands that annotate: first what could not be graded, then what is wrong; at most ten."""
     found = [*_refused(report), *_wrong(report, feedback)]
-    shown = found[:MOST] if len(found) <= MOST else found[: MOST - 1]
-    if len(found) > MOST:
+    shown = found[:_MOST] if len(found) <= _MOST else found[: _MOST - 1]
+    if len(found) > _MOST:
         shown.append(f"::notice title=rldrill::{len(found) - len(shown)} more are in the summary of this step.")
     return "".join(f"{line}\n" for line in shown)
 
