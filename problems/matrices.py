@@ -75,9 +75,9 @@ def check_shape(name: str, matrix: Rows, rows: int, columns: int, where: str = "
     Raises:
         ValueError: it has; the sentence names it.
     """
-    if len(matrix) != rows or any(len(line) != columns for line in matrix):
-        shape = f"{len(matrix)}×{len(matrix[0]) if matrix else 0}"
-        raise ValueError(f"{name} is {shape}, but {where}it must be {rows}×{columns}")
+    height, width = len(matrix), len(matrix[0]) if matrix else 0
+    if (height, width) != (rows, columns):
+        raise ValueError(f"{name} is {height}×{width}, but {where}it must be {rows}×{columns}")
 
 
 def check_symmetric(name: str, matrix: Rows) -> None:

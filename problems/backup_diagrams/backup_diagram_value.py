@@ -59,7 +59,7 @@ class Given(Reversible):
         else:
             leaves = tuple(state for state in reached if state not in states)
             check_keys(self.values, leaves, "the value", needed=leaves)
-            if max(self._depths(states[0], 0), default=0) > DEEPEST:
+            if max(self._depths(states[0], 0)) > DEEPEST:
                 raise ValueError(f"dynamics: the tree must end after {DEEPEST} levels; a state leads back or too far")
         if self.policy is not None:
             self._check_policy(self.policy)

@@ -176,6 +176,22 @@ def test_anki_reads_the_deck_and_knows_each_problem_by_its_id(tmp_path: Path) ->
     assert package == written("anki", tmp_path), "the same exam is the same file"
 
 
+@pytest.mark.parametrize(("codes", "decks"), [("A", ["a:b"]), ("AB", ["a:b::A", "a:b::B"])])
+def test_anki_has_a_deck_below_the_title_for_each_of_several_versions(
+    tmp_path: Path, codes: str, decks: list[str]
+) -> None:
+    pytest.importorskip("genanki")
+    one = exam("a::b")  # two colons would part the title itself
+    (version,) = one.versions
+    several = replace(one, versions=tuple(replace(version, code=code) for code in codes))
+    (path,) = export(several, tmp_path / "exam.apkg", FORMATS["anki"], practice=True)
+    with zipfile.ZipFile(path) as files:
+        (tmp_path / "collection").write_bytes(files.read("collection.anki2"))
+    with sqlite3.connect(tmp_path / "collection") as database:
+        (kept,) = database.execute("select decks from col").fetchone()
+    assert [deck["name"] for deck in json.loads(kept).values() if deck["name"] != "Default"] == decks
+
+
 def test_latex_compiles(tmp_path: Path) -> None:
     source = written("latex", tmp_path).decode()
     assert source.count(r"\begin{solution}") == sum(len(exercise.parts) for exercise in exam().versions[0].exercises)

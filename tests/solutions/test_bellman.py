@@ -8,6 +8,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.valued import with_reward
@@ -165,6 +166,13 @@ def test_graphs_that_do_not_fit(changes: dict[str, Any], fragment: str) -> None:
     assert solved("principle-of-optimality", **graph)["a"] == {"a": 3, "b": 2, "c": -1}
     with pytest.raises(FileError, match=fragment):
         solved("principle-of-optimality", **graph | changes)
+
+
+@pytest.mark.parametrize(("reward", "costs"), [(-1, True), (0, False), (1, False)])
+def test_only_a_negative_reward_is_called_a_cost(reward: int, costs: bool) -> None:
+    graph = {"edges": [["a", "b", reward], ["b", "end", 2], ["a", "end", 1]], "start": "a", "goal": "end"}
+    asked = rldrill.read({"family": "principle-of-optimality", "given": graph}).question()
+    assert ("(a cost, if it is negative)" in " ".join(str(asked).split())) == costs
 
 
 MDP = {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "end", 1, 3], ["b", "x", "a", 1, 2]], "terminal": ["end"]}
