@@ -18,9 +18,10 @@ class Number(Struct, frozen=True):
 
 
 class Numbers(Struct, frozen=True):
-    """Numbers in a stated order; ``entries`` says in mathematics what each is (``R_0``)."""
+    """Numbers in a stated order; ``entries`` says in mathematics what each is (``R_0``), ``called`` in words."""
 
     entries: tuple[str, ...]
+    called: tuple[str, ...] = ()
     name: ClassVar[str] = "vector"
 
 

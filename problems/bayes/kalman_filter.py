@@ -289,14 +289,16 @@ def _models(given: Given) -> tuple[Block, ...]:
     )
 
 
+_CALLED = ("mean", "variance")
+
+
 def _wanted(given: Given, time: int, event: Event) -> list[tuple[str, Numbers | Matrix]]:
     after = f"after the motion of step ${time}$, before the measurement"
     if given.on_a_line:
-        wanted: list[tuple[str, Numbers | Matrix]] = [
-            (f"What are the mean and the variance {after}?", Numbers((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}")))
-        ]
+        ahead = Numbers((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}"), called=_CALLED)
+        wanted: list[tuple[str, Numbers | Matrix]] = [(f"What are the mean and the variance {after}?", ahead)]
         if event.z is not None:
-            entries = Numbers((f"μ_{{{time}}}", f"Σ_{{{time}}}"))
+            entries = Numbers((f"μ_{{{time}}}", f"Σ_{{{time}}}"), called=_CALLED)
             wanted.append((f"What are the mean and the variance after the measurement $z_{{{time}}}$?", entries))
         return wanted
     n = len(given.mean)

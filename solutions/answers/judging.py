@@ -123,8 +123,10 @@ def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
     longest = LONGEST
     if len(text) > LONGEST:  # to write the right answer takes its time
         longest = max(LONGEST, _ROOM * len(kind.write(solution.answers[part.label])))
-    cells = kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
     names = kind.cells(solution.answers[part.label])
+    if not isinstance(part.kind, Choice) and part.label not in {*names, *problem.parameters, "e"}:
+        text = re.sub(rf"^\s*\(?{part.label}\)\s*(?=\S)", "", text)  # (a) 6.5
+    cells = kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
     if len(cells) < len(names):
         raise Incomplete([name for name in names if name not in cells], cells)
     return cells

@@ -161,8 +161,8 @@ class NumbersAnswer(Answer[parts.Numbers]):
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        entries = self.kind.entries
-        read = read_vector(text, len(entries), allowed.parameters, entries, allowed.longest)
+        entries, called = self.kind.entries, self.kind.called
+        read = read_vector(text, len(entries), allowed.parameters, entries, allowed.longest, called)
         return {name: reading for name, reading in self.cells(read).items() if reading is not None}
 
     def value(self, cells: Mapping[str, Any]) -> Any:

@@ -9,6 +9,7 @@ from rldrill.problems.spelling import Source
 
 _TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?\s*[Tt⊤]\s*\}?|ᵀ|\.T|\.?')$")
 _NOTHING = re.compile(r"[-–—?…]?")
+_FACTOR = re.compile(r"((?:[^()\[\],;|\s]|\((?:[^()\[\]]|\([^()\[\]]*\))+\))+?)\s*\*?\s*([\[(].*)", re.DOTALL)
 _MIXED = re.compile(r"[0-9]+\s+[0-9]+\s*/\s*[0-9]+(?![0-9.])")
 
 
@@ -16,6 +17,15 @@ def untransposed(source: Source) -> Source:
     """A bracket without the ``^T`` behind it; the source itself if there is none."""
     mark = _TRANSPOSED.search(source.text)
     return source.part(0, mark.start()) if mark else source
+
+
+def unscaled(source: Source) -> tuple[str, Source]:
+    """What stands before a bracket of several entries, ``1/11 [5 3]``, and the bracket; no text where nothing does."""
+    if (found := _FACTOR.fullmatch(source.text)) is None:
+        return "", source
+    bracket = source.part(found.start(2), len(source.text))
+    inside, wrapped = unwrapped(bracket)
+    return (found[1], bracket) if wrapped and inside.has(",;| \n") else ("", source)
 
 
 def unwrapped(source: Source) -> tuple[Source, bool]:
@@ -136,8 +146,8 @@ def nested_rows(source: Source) -> list[list[Source]] | None:
     return None
 
 
-def plain_rows(source: Source) -> list[list[Source]]:
-    """The entries of rows that end with a semicolon or a line."""
+def plain_rows(source: Source, *, spaced: bool) -> list[list[Source]]:
+    """The entries of rows that end with a semicolon or a line; ``spaced`` where there must be several."""
     body, wrapped = unwrapped(source)
     rows = filled(body.split(";\n"))
-    return [entries_of(row, wrapped or len(rows) > 1 or row.has("|")) for row in rows]
+    return [entries_of(row, spaced or wrapped or len(rows) > 1 or row.has("|")) for row in rows]

@@ -230,15 +230,23 @@ def _unmarked(text: str) -> str:
     return "".join(sign for sign in _plain(text) if not unicodedata.combining(sign))
 
 
-def entry_named(label: str, names: Sequence[str]) -> int | None:
-    """Which entry a label means; its index may be left out where no other entry has the same letter."""
+def entry_named(label: str, names: Sequence[str], called: Sequence[str] = ()) -> int | None:
+    """Which entry a label means; its index may be left out where no other entry has the same letter.
+
+    Args:
+        label: what was typed before an entry.
+        names: what the entries are, in mathematics.
+        called: what they are called, in words; the beginning of one is enough.
+    """
     for form in (_plain, _unmarked, _loose, lambda name: _loose(name).rstrip("0123456789")):
         hits = [index for index, name in enumerate(names) if form(name) in (_plain(label), _loose(label))]
         if len(hits) == 1:
             return hits[0]
-    return None
+    begun = [index for index, word in enumerate(called) if word.startswith(label.strip().casefold())]
+    return begun[0] if len(begun) == 1 else None
 
 
 def _loose(name: str) -> str:
-    """The same with what is raised on the line: ``R01`` for ``R₀⁽¹⁾``."""
-    return re.sub(r"[\^(){}]", "", unicodedata.normalize("NFKC", _unmarked(name)))
+    """The same with what is raised on the line, and without quotes: ``R01`` for ``R₀⁽¹⁾``, ``wtmua`` for ``wᵀμ(A)``."""
+    spelled = unicodedata.normalize("NFKC", _unmarked(name)).replace("⊤", "T")
+    return re.sub(r"[\^(){}\"]", "", spelled).casefold()

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TypeVar
 
@@ -14,6 +15,7 @@ from rldrill.solutions.answers.lists import (
     left_out,
     nested_rows,
     plain_rows,
+    unscaled,
     untransposed,
     unwrapped,
     vector_entries,
@@ -97,6 +99,7 @@ def read_vector(
     parameters: Sequence[str] = (),
     names: Sequence[str] = (),
     longest: int = LONGEST,
+    called: Sequence[str] = (),
 ) -> tuple[Reading | None, ...]:
     """Read a vector: ``1, 2`` or ``[1 2]`` or ``(1; 2)``, or by name: ``mu: 1, Sigma: 2``; None for what is left out.
 
@@ -106,17 +109,19 @@ def read_vector(
         parameters: the names of the open parameters that it may contain.
         names: what the entries are, in mathematics; entries that are typed with these names may stand in any order.
         longest: the most characters that are read.
+        called: what the entries are called in words, which may be typed instead of their names.
 
     Raises:
-        Unreadable: an entry is not a number, or is given twice, or there are too few or too many.
+        Unreadable: an entry is not a number, or is given twice, or there are too few or too many; or names that
+            are not known stand in another order than the alphabet's, so that they may mean another one.
     """
     source = clean(text, longest)
 
     def vector(member: Source) -> tuple[Reading | None, ...]:
-        return _vector(member, length, parameters, names)
+        return _vector(member, length, parameters, names, called)
 
     body = _right_side(source)
-    if length != 1 and body.has("=≈") and len(_pieces(body, length)) == 1:
+    if length != 1 and body.has("=≈") and len(_pieces(body, length, parameters)) == 1:
         return _forms(source, vector, _given)  # (1/4, 2) = (0.25, 2)
     return vector(source)
 
@@ -126,13 +131,15 @@ def _given(entries: Iterable[Reading | None]) -> list[Reading]:
 
 
 def _vector(
-    source: Source, length: int | None, parameters: Sequence[str], names: Sequence[str]
+    source: Source, length: int | None, parameters: Sequence[str], names: Sequence[str], called: Sequence[str]
 ) -> tuple[Reading | None, ...]:
-    entries = _pieces(source, length)
-    if len(entries) == 1 or not all(_LABEL.match(entry.text) for entry in entries[1:]):
+    entries = _pieces(source, length, parameters)
+    labels = [_LABEL.match(entry.text) for entry in entries]
+    alone = len(entries) == 1 and not (labels[0] and entry_named(labels[0][2], names, called) is not None)
+    if alone or not all(labels[1:]):
         source = _right_side(source)  # R = 1, 2
-        entries = _pieces(source, length)
-    entries = _unlabelled(entries, names)  # R_0 = 1, R_1 = 2
+        entries = _pieces(source, length, parameters)
+    entries = _unlabelled(entries, names, called)  # R_0 = 1, R_1 = 2
     most = max(_ENTRIES, length or 0)
     given = [index for index, entry in enumerate(entries) if not left_out(entry)] or range(len(entries))
     place = (lambda i: f"entry {given[i - 1] + 1}") if len(entries) != 1 else None
@@ -144,8 +151,11 @@ def _vector(
     return tuple(readings.get(index) for index in range(len(entries)))
 
 
-def _pieces(source: Source, length: int | None) -> list[Source]:
+def _pieces(source: Source, length: int | None, parameters: Sequence[str]) -> list[Source]:
     """The entries of a vector; labels begin new ones: ``mu = 1 Sigma = 2``."""
+    factor, bracket = _scaled(source, parameters)
+    if factor:
+        return _times(factor, vector_entries(bracket, length))
     body = untransposed(source)
     inside, _ = unwrapped(body)
     labels = [
@@ -185,12 +195,15 @@ def _matrix(
     source: Source, shape: tuple[int, int] | None, parameters: Sequence[str]
 ) -> tuple[tuple[Reading, ...], ...]:
     body = untransposed(source)
+    transposed = body is not source
+    factor, body = _scaled(body, parameters)
     rows = nested_rows(body)
     plain = rows is None
     if rows is None:
-        rows = plain_rows(body)
+        rows = plain_rows(body, spaced=shape not in (None, (1, 1)))
     if len(rows) > (most := max(_ENTRIES, *shape or (1,))):
         raise source.unreadable(f"More than {most} rows were typed; leave out those that were not asked for.")
+    rows = [_times(factor, row) for row in rows] if factor else rows
     arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
     matrix = [
         _numbers(row, parameters, None if alone else f"row {i}, entry {{}}".format, arithmetic, most)
@@ -199,7 +212,7 @@ def _matrix(
     for i, row in enumerate(matrix, 1):
         if len(row) != len(matrix[0]):
             raise source.unreadable(f"Row {i} has length {len(row)}, row 1 has {len(matrix[0])}; make them equal.")
-    if body is not source:
+    if transposed:
         matrix = list(zip(*matrix, strict=True))
     read = (len(matrix), len(matrix[0]))
     if shape is not None and read != shape:
@@ -426,16 +439,18 @@ def _unnamed(source: Source) -> Source:
     return inside.part(label.end(), len(inside.text)) if label else source
 
 
-def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
+def _unlabelled(entries: list[Source], names: Sequence[str], called: Sequence[str]) -> list[Source]:
     """The entries without the ``R_0 =`` or ``R_0:`` before each; in the order of the names, if all are known."""
-    labels = [_LABEL.match(entry.text) for entry in entries]
+    begins = re.compile(rf"()({'|'.join(called)})\s+(?=\S)", re.IGNORECASE) if called else _LABEL  # mean 5, variance 12
+    labels = [_LABEL.match(entry.text) or begins.match(entry.text) for entry in entries]
     values = [
         entry.part(label.end(), len(entry.text)) if label else _right_side(entry)
         for entry, label in zip(entries, labels, strict=True)
     ]
-    meant = [index for label in labels if label and (index := entry_named(label[2], names)) is not None]
-    unknown = [label[2].strip() for label in labels if label and entry_named(label[2], names) is None]
-    if meant and unknown and all(labels):
+    found = [(label[2].strip(), entry_named(label[2], names, called)) for label in labels if label]
+    meant = [index for _, index in found if index is not None]
+    unknown = [name for name, index in found if index is None]
+    if all(labels) and unknown and (meant or sorted(unknown, key=_naturally) != unknown):
         raise entries[0].unreadable(f"{quoted(unknown[0])} is not asked for here; give the {len(names)} entries alone.")
     if len(meant) < len(entries):
         return values
@@ -445,6 +460,25 @@ def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
             raise entry.unreadable(f"Entry {index + 1} is given twice; give every entry once.")
         placed[index] = value
     return [placed.get(index, Source("")) for index in range(len(names))]
+
+
+def _scaled(source: Source, parameters: Sequence[str]) -> tuple[str, Source]:
+    """The number before a bracket, and the bracket; no number where something else stands there, or nothing."""
+    factor, bracket = unscaled(source)
+    if factor:
+        with suppress(Unreadable):
+            number(Source(factor), parameters, Arithmetic())
+            return factor, bracket
+    return "", source
+
+
+def _times(factor: str, entries: Iterable[Source]) -> list[Source]:
+    return [Source(f"({factor})*({entry.text})", entry.start) for entry in entries]
+
+
+def _naturally(name: str) -> list[str | int]:
+    """By letters and by numbers: R_2 comes before R_10."""
+    return [int(run) if run.isdecimal() else run for run in re.split("([0-9]+)", name.casefold())]
 
 
 def _forms(source: Source, read: Callable[[Source], Read], numbers: Callable[[Read], Iterable[Reading]]) -> Read:

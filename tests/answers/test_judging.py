@@ -456,3 +456,12 @@ def test_an_action_that_is_left_out_is_a_wrong_one() -> None:
     mdp = {"transitions": moves, "terminal": ["end"]}
     verdict = judge(problem("value-iteration", gamma=1, sweeps=1, mdp=mdp), "b", "a: go, c: go")
     assert (verdict.outcome, verdict.credit, verdict.wrong_cells) == (Outcome.WRONG, Fraction(1, 3), ("b",))
+
+
+@pytest.mark.parametrize("text", ["(a) 27/4", "a) 6.75", "(a)6.75", "a) (27/4)"])
+def test_the_letter_of_the_part_may_stand_before_its_answer(text: str) -> None:
+    # 8 + 1/2·(4 + 1/2·3 − 8) = 27/4
+    run = {"states": ["cave", "rim"], "rewards": [4]}
+    solution = problem("td-zero", trajectory=run, values={"cave": 8, "rim": 3}, alpha="1/2", gamma="1/2")
+    assert judge(solution, "a", text).outcome is Outcome.RIGHT
+    assert judge(solution, "a", text.replace("a", "b", 1)).outcome is not Outcome.RIGHT

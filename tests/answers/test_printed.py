@@ -9,7 +9,8 @@ import pytest
 
 from rldrill.exercise import Exercise, read
 from rldrill.problems.catalogue import families, family
-from rldrill.problems.parts import Choice, Part
+from rldrill.problems.mathematics import mathematics
+from rldrill.problems.parts import Choice, Numbers, Part
 from rldrill.render.markdown import markdown
 from rldrill.render.mathematics.unicode import inline, unicode
 from rldrill.render.terminal import plain
@@ -60,6 +61,19 @@ def test_what_is_printed_can_be_typed(name: str) -> None:
                 for text in printed(exercise, part):
                     verdict = judge(exercise.solution, part.label, text)
                     assert verdict.outcome is Outcome.RIGHT, (level, seed, part.label, text, verdict)
+
+
+def test_named_entries_may_stand_in_any_order() -> None:
+    for name in families():
+        for level in family(name).levels:
+            exercise = Exercise(draw(name, level, 5))
+            for part in exercise.parts:
+                if isinstance(part.kind, Numbers):
+                    answer = exercise.data()["parts"][exercise.parts.index(part)]["answer"]["exact"]
+                    names = [unicode(mathematics(entry)) for entry in part.kind.entries]
+                    lines = [f"{entry} = {value}" for entry, value in zip(names, answer, strict=True)]
+                    verdict = judge(exercise.solution, part.label, "; ".join(reversed(lines)))
+                    assert verdict.outcome is Outcome.RIGHT, (exercise.id, part.label, lines, verdict)
 
 
 def test_what_is_printed_of_a_large_model_can_be_typed() -> None:

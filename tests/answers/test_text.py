@@ -321,6 +321,11 @@ VECTORS = [
     "1,\n-2",
     "{1, -2}",
     "1, -2.",
+    "1/2 (2, -4)",
+    "0.5*[2 -4]",
+    "-1 [-1, 2]",
+    "\\frac12 [2, -4]",
+    "v = (1/3)*(3; -6)",
 ]
 
 
@@ -377,6 +382,10 @@ MATRICES = [
     "[[1,3],[2,4]]^T",
     "[1 3; 2 4]'",
     "1, 2;\n3, 4;",
+    "1/2 [2 4; 6 8]",
+    "K = 2*[[1/2, 1], [3/2, 2]]",
+    "1/2 [2 6; 4 8]^T",
+    r"\frac{1}{2}\begin{pmatrix}2 & 4\\6 & 8\end{pmatrix}",
 ]
 
 
@@ -386,7 +395,7 @@ def test_matrices(text):
     assert [values(row) for row in read_matrix(text)] == [[1, 2], [3, 4]]
 
 
-@pytest.mark.parametrize("text", ["1, 2", "[1 2]", "[1; 2]", "1\n2", "[(1), (2)]"])
+@pytest.mark.parametrize("text", ["1, 2", "1 2", "[1 2]", "[1; 2]", "1\n2", "[(1), (2)]", "1/3 [3 6]"])
 def test_a_single_row_or_column_may_be_typed_as_a_vector(text):
     assert [values(row) for row in read_matrix(text, (1, 2))] == [[1, 2]]
     assert [values(row) for row in read_matrix(text, (2, 1))] == [[1], [2]]
@@ -872,8 +881,35 @@ def test_entries_of_vectors_by_name(text, names):
     assert values(read_vector(text, 2, (), names)) == [1, 2]
 
 
+@pytest.mark.parametrize(
+    "text", ["mean 1, variance 2", "Variance = 2, Mean = 1", "v: 2, m: 1", "Sigma: 2, mean: 1", "variance 2; mu = 1"]
+)
+def test_entries_of_vectors_by_what_they_are_called(text):
+    assert values(read_vector(text, 2, (), ["μ_{1}", "Σ_{1}"], called=("mean", "variance"))) == [1, 2]
+
+
+@pytest.mark.parametrize("text", ["a = 1, b = 2", "G_2 = 1, G_10 = 2", "m: 1; M: 2", "b = 1, b = 2"])
+def test_names_that_are_not_known_count_in_their_own_order(text):
+    assert values(read_vector(text, 2, (), ["x", "y"])) == [1, 2]
+
+
+@pytest.mark.parametrize("text", ["b = 2, a = 1", "variance = 2, mean = 1", "G_10: 2, G_2: 1"])
+def test_names_that_are_not_known_may_mean_another_order(text):
+    assert "is not asked for here" in refusal(read_vector, text, 2, (), ["x", "y"]).message
+
+
+def test_one_named_entry_of_several_leaves_out_the_others():
+    assert [reading and reading.value for reading in read_vector("y = 2", 2, (), ["x", "y"])] == [None, 2]
+    assert "1 number was read, 2 are needed" in refusal(read_vector, "R = 2", 2, (), ["x", "y"]).message
+
+
 def test_an_entry_that_is_given_twice_is_refused():
     assert "Entry 1 is given twice" in refusal(read_vector, "x: 1, x: 2", 2, (), ["x", "y"]).message
+
+
+@pytest.mark.parametrize("text", ["x [1 2]", "1/2, [1 2]", "sqrt [1 2]"])
+def test_only_a_number_multiplies_a_bracket(text):
+    assert refusal(read_vector, text, 2)
 
 
 @pytest.mark.parametrize("text", ["R_0: .25", "answer: 1/4", "The answer is 1/4", "V(s): 0.25", "p(s|a): 25%"])
