@@ -8,6 +8,8 @@ from rldrill.solutions.policy_values import Evaluation, equal_chances, evaluated
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_Q,
     BELLMAN_V,
+    DISCOUNTED_REWARD,
+    FORGOT_GAMMA,
     OWN_VALUE,
     Q_FORGOT_GAMMA,
     Q_REWARD_UNWEIGHTED,
@@ -35,6 +37,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
 MISCONCEPTIONS = (
     one_backup(solve), terminal_value(solve), equal_chances(solve), TRANSPOSED,
     Q_FORGOT_GAMMA, OWN_VALUE, Q_REWARD_UNWEIGHTED,
+    FORGOT_GAMMA.where_it_shows(), DISCOUNTED_REWARD.where_it_shows(),
 )  # fmt: skip
 
 

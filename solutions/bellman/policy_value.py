@@ -14,7 +14,9 @@ from rldrill.solutions.reward_processes import fitting
 from rldrill.solutions.sheet.bellman import (
     AVERAGE_REWARD,
     BELLMAN_V,
+    DISCOUNTED_REWARD,
     EQUAL_SHARES,
+    FORGOT_GAMMA,
     SHARES_SUM,
     STATIONARY,
     TRANSPOSED,
@@ -59,6 +61,8 @@ MISCONCEPTIONS = (
     TRANSPOSED,
     EQUAL_SHARES,
     equal_chances(solve),
+    replace(FORGOT_GAMMA.where_it_shows(), when=lambda given: given.gamma != 1 and not given.average),
+    replace(DISCOUNTED_REWARD.where_it_shows(), when=lambda given: given.gamma != 1 and not given.average),
 )
 
 

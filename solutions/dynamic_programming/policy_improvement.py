@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from msgspec.structs import replace
+
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.problems.mathematics import mathematics
@@ -20,7 +22,7 @@ from rldrill.solutions.oracle import (
     tensors,
 )
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
-from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V, Q_FORGOT_GAMMA
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V, FORGOT_GAMMA, Q_FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,
@@ -64,7 +66,13 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     work.answer(optimal)
 
 
-MISCONCEPTIONS = (IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, one_sweep(solve), Q_FORGOT_GAMMA)
+MISCONCEPTIONS = (
+    IMPROVEMENT_BY_VALUE,
+    IMPROVEMENT_BY_REWARD,
+    one_sweep(solve),
+    Q_FORGOT_GAMMA,
+    replace(FORGOT_GAMMA.where_it_shows(), when=lambda given: given.gamma != 1 and given.values is None),
+)
 
 
 def oracle(given: Given) -> Answers:

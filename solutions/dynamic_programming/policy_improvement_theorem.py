@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from msgspec.structs import replace
+
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_improvement_theorem import Given
 from rldrill.problems.valued import deterministic
@@ -14,7 +16,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
 from rldrill.solutions.policy_values import Evaluation, endless, evaluated, of_states, one_sweep
-from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V, FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import POLICY_IMPROVEMENT_THEOREM, POLICY_ITERATION
 from rldrill.solutions.work import Work
 
@@ -115,7 +117,12 @@ def one_state(given: Given, work: Work) -> None:
     work.answer(1 in _gaps(given, work))
 
 
-MISCONCEPTIONS = (new_values, one_state, one_sweep(solve))
+MISCONCEPTIONS = (
+    new_values,
+    one_state,
+    one_sweep(solve),
+    replace(FORGOT_GAMMA.where_it_shows(), when=lambda given: given.gamma != 1 and given.values is None),
+)
 
 
 def oracle(given: Given) -> Answers:
