@@ -108,7 +108,8 @@ def _paid_again(work: Work, formula: Formula, mdp: Model, known: Mapping[str, An
     return evaluated(work, formula, mdp, {**known, "V": knowns.last_rewards(mdp)})
 
 
-def _swept(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
+def swept_once(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
+    """The values after one sweep, from those that are known, or from zero."""
     known = {**known, "V": _begin(mdp, known)}
     return known["V"] | {state: work.step(formula, s=state, **known) for state in mdp.states}
 
@@ -118,7 +119,7 @@ def one_backup(solve: Solve) -> Misconception:
     return slip(
         "one-backup",
         "One backup from zero is only the expected reward; the values must solve all equations at once.",
-    )(lambda given, work: solve(given, work, _swept))
+    )(lambda given, work: solve(given, work, swept_once))
 
 
 def one_sweep(solve: Solve) -> Misconception:
@@ -127,7 +128,7 @@ def one_sweep(solve: Solve) -> Misconception:
         "one-sweep",
         "One sweep gives only the reward of the next step; the values of a policy must solve all equations at once.",
         when=lambda given: getattr(given, "values", None) is None,  # where they are given, nothing is evaluated
-    )(lambda given, work: solve(given, work, _swept))
+    )(lambda given, work: solve(given, work, swept_once))
 
 
 def terminal_value(solve: Solve) -> Misconception:

@@ -3,6 +3,7 @@
 from typing import Any
 
 import sympy
+from msgspec.structs import replace
 
 from rldrill.problems.bayes.model_comparison import CoinModel, Given
 from rldrill.solutions import knowns
@@ -18,12 +19,17 @@ from rldrill.solutions.sheet.bayes import (
     MODEL_COMPARISON,
     MODEL_POSTERIOR,
     POSTERIOR_ODDS,
+    PRIORS_FORGOTTEN,
     few_values,
     uniform_evidence,
 )
 from rldrill.solutions.work import Equality, Note, Work
 
-MISCONCEPTIONS = (BEST_FIT, BINOMIAL)
+MISCONCEPTIONS = (
+    BEST_FIT,
+    BINOMIAL,
+    replace(PRIORS_FORGOTTEN.where_it_shows(), when=lambda given: len(given.models) == 2),
+)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any
 
+from msgspec.structs import replace
+
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
 from rldrill.solutions.exact import exact, told
 from rldrill.solutions.formula.formula import Formula, slip
@@ -22,10 +24,12 @@ from rldrill.solutions.sheet.bayes import (
     MODEL_FITTING,
     N_FOR_N_MINUS_1,
     N_MINUS_1_FOR_N,
+    ONE_FOR_ALL,
     PRODUCTS,
     SAMPLE_VARIANCE,
     SQUARES,
     STANDARD_DEVIATION,
+    VARIANCES_AS_WEIGHTS,
     line_intercept_map,
 )
 from rldrill.solutions.work import Work
@@ -129,7 +133,18 @@ def prior_ignored(given: Given, work: Work) -> None:
     _fit(given, work, COIN_ML, GAUSSIAN_MEAN, LINE_SLOPE)
 
 
-MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, STANDARD_DEVIATION.where_it_shows(), prior_ignored)
+def _of_a_mean(given: Given) -> bool:
+    return given.sample is not None and given.sample.prior is not None
+
+
+MISCONCEPTIONS = (
+    N_FOR_N_MINUS_1,
+    N_MINUS_1_FOR_N,
+    STANDARD_DEVIATION.where_it_shows(),
+    prior_ignored,
+    replace(ONE_FOR_ALL.where_it_shows(), when=_of_a_mean),
+    replace(VARIANCES_AS_WEIGHTS.where_it_shows(), when=_of_a_mean),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,10 +1,14 @@
 """One average over outcomes for every action; what is left open follows where two of them are to be equal."""
 
+from collections.abc import Callable
+from operator import attrgetter
+
 from msgspec.structs import replace
 
 from rldrill.problems.bellman.action_value import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ONE, NoSolution, exact, sign
+from rldrill.solutions.exact import ONE, NoSolution, Value, exact, sign
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.bellman import (
@@ -16,14 +20,8 @@ from rldrill.solutions.sheet.bellman import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (
-    replace(Q_REWARD_UNWEIGHTED, when=lambda given: any(row.probability != 1 for row in given.dynamics.transitions)),
-    replace(Q_FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
-    OWN_VALUE,
-)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, told: Callable[[Value], Value] = lambda chance: chance) -> None:
     """Reward plus discounted value of the next state, averaged over where the action leads."""
     known = knowns.model(given.dynamics) | {"gamma": exact(given.gamma), "V": knowns.values(given.values)}
     worth = {(s, a): work.step(BELLMAN_Q, s=s, a=a, **known) for s, a in given.dynamics.pairs}
@@ -42,7 +40,25 @@ def solve(given: Given, work: Work) -> None:
         chance = work.equate("p", mean, own)
         if sign(chance) < 0 or sign(ONE - chance) < 0:
             raise NoSolution(f"the value of {state!r} does not lie between those of its actions; no policy gives it")
-        work.answer(chance)
+        work.answer(told(chance))
+
+
+@slip(
+    "chance-of-the-other-action",
+    "That is the probability of the other action; the two sum to 1.",
+    when=attrgetter("chance"),
+)
+def other_chance(given: Given, work: Work) -> None:
+    """The probability with which the policy does not take the action that is asked for."""
+    solve(given, work, lambda chance: ONE - chance)
+
+
+MISCONCEPTIONS = (
+    replace(Q_REWARD_UNWEIGHTED, when=lambda given: any(row.probability != 1 for row in given.dynamics.transitions)),
+    replace(Q_FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
+    OWN_VALUE,
+    other_chance.where_it_shows(),
+)
 
 
 def possible(given: Given) -> bool:

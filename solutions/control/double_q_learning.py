@@ -16,6 +16,7 @@ from rldrill.solutions.sheet.control import (
     DOUBLE_Q_LEARNING,
     NOT_DISCOUNTED,
     OTHER_TABLE_SELECTS,
+    ROLES_EXCHANGED,
     SAME_TABLE_EVALUATES,
 )
 from rldrill.solutions.work import Work
@@ -36,7 +37,13 @@ def both_updated(given: Given, work: Work) -> None:
     _learn(given, work, lambda turn: (3 - turn, turn))
 
 
-MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, NOT_DISCOUNTED, both_updated)
+MISCONCEPTIONS = (
+    SAME_TABLE_EVALUATES,
+    OTHER_TABLE_SELECTS,
+    ROLES_EXCHANGED.where_it_shows(),
+    NOT_DISCOUNTED,
+    both_updated,
+)
 
 
 def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) -> None:

@@ -118,7 +118,7 @@ ANSWERS = {
     "sign": 9.0,
     "answer-transposed": 5.0,
     "answer-scaled": 0.4,
-    "one-minus": 2.0,
+    "one-minus": 6.0,
     "inverse": 2.0,
     "tenfold": 1.5,
     "one-off": 1.0,

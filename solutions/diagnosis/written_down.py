@@ -34,7 +34,8 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
             yield _cause(slip, name if len(key) > 1 else ""), {**key, name: other}
     if len(key) == 1:
         ((name, value),) = key.items()
-        yield _cause("one-minus"), {name: 1 - value}
+        share = is_rational(value) and 0 < value < 1
+        yield _cause("one-minus", likely=1.0 if share else weights.NO_SHARE), {name: 1 - value}
         yield _cause("percent"), {name: value * 100}
         for application in applications:
             if plain(application.value):
@@ -74,8 +75,8 @@ def _is_of(application: Application, name: str) -> bool:
     return all(part in told for part in name.strip("()").split(", "))
 
 
-def _cause(kind: str, what: str = "") -> Cause:
-    return Cause(kind, weights.ANSWERS[kind], what=what, on_paper=True)
+def _cause(kind: str, what: str = "", likely: float = 1.0) -> Cause:
+    return Cause(kind, weights.ANSWERS[kind] * likely, what=what, on_paper=True)
 
 
 def scaled(typed: Typed) -> WrittenDown:

@@ -27,7 +27,7 @@ from rldrill.solutions.oracle import (
     tensors,
 )
 from rldrill.solutions.oracle import policy_values as values_of
-from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep, swept_once
 from rldrill.solutions.sheet.bellman import Q_FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
@@ -137,6 +137,20 @@ def _improved(policy: Mapping[str, str], best: Mapping[str, Any]) -> dict[str, t
 
 
 @slip(
+    "goes-on-from-old-values",
+    "The values of the new policy must solve all its equations; one sweep from the old values is not enough.",
+    when=lambda given: isinstance(given, Rounds) and given.rounds > 1,
+)
+def goes_on(given: Given, work: Work) -> None:
+    """The first policy's values are found, those of a later one by a sweep from the values before."""
+    solve(given, work, _gone_on)
+
+
+def _gone_on(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
+    return (swept_once if known["V"] else evaluated)(work, formula, mdp, known)
+
+
+@slip(
     "stops-after-one-round",
     "The new policy is evaluated and improved in its turn; it ends only when improvement changes nothing.",
     when=lambda given: isinstance(given, Rounds) and given.rounds > 1,
@@ -151,7 +165,7 @@ def _evaluated_once(work: Work, formula: Formula, mdp: Model, known: Mapping[str
 
 
 MISCONCEPTIONS = (
-    stops, one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD,
+    stops, goes_on.where_it_shows(), one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD,
     # In rounds one action value is told beside the answers: it shows that a policy is not optimal, and changes nothing.
     replace(Q_FORGOT_GAMMA, when=lambda given: isinstance(given, Threshold)),
 )  # fmt: skip

@@ -1,12 +1,17 @@
 """Every episode with its probability and its return, then the mean of the returns."""
 
+from fractions import Fraction
 from typing import Any
+
+from msgspec.structs import replace
 
 from rldrill.problems.fundamentals.expected_return import Episode, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, tensors
+from rldrill.solutions.policy_values import equal_chances
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import (
     BEST_EPISODE,
@@ -21,8 +26,6 @@ from rldrill.solutions.sheet.fundamentals import (
     tau,
 )
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (UNWEIGHTED, BEST_EPISODE, START_DROPPED, POLICY_DROPPED, LAST_BRANCH_DROPPED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -50,6 +53,27 @@ def solve(given: Given, work: Work) -> None:
         find(given, work, value)
         return
     work.answer(value)
+
+
+@slip(
+    "starts-in-the-first-state",
+    "Episodes start in the other states, too: each start state counts with its probability.",
+    when=lambda given: given.known is None and len(given.start) > 1,
+)
+def one_start(given: Given, work: Work) -> None:
+    """Every episode starts in the state that is listed first."""
+    solve(given.model_copy(update={"start": {next(iter(given.start)): Fraction(1)}}), work)
+
+
+MISCONCEPTIONS = (
+    UNWEIGHTED,
+    BEST_EPISODE,
+    START_DROPPED,
+    POLICY_DROPPED,
+    LAST_BRANCH_DROPPED,
+    one_start.where_it_shows(),
+    replace(equal_chances(solve), when=lambda given: given.known is None and given.policy is not None),
+)
 
 
 def _told(episode: Episode) -> str:

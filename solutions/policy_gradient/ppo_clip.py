@@ -4,6 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
+from msgspec.structs import replace
+
 from rldrill.problems.exact import Weight, needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.ppo_clip import CUT, Given, Sample
@@ -15,6 +17,7 @@ from rldrill.solutions.rational import generator
 from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
     CLIP_WITHOUT_MIN,
+    NOT_AVERAGED,
     PPO,
     PPO_AT_THE_LOWER_BOUND,
     PPO_AT_THE_UPPER_BOUND,
@@ -225,7 +228,12 @@ def wrong_side(given: Given, work: Work) -> None:
     solve(given, work, other)
 
 
-MISCONCEPTIONS = (CLIP_WITHOUT_MIN, wrong_side, RATIO_INVERTED)
+MISCONCEPTIONS = (
+    CLIP_WITHOUT_MIN,
+    wrong_side,
+    RATIO_INVERTED,
+    replace(NOT_AVERAGED.where_it_shows(), when=lambda given: len(given.samples) > 1),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -400,6 +400,12 @@ with evaluate(False):
             STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1)),
         },
     )
+    ONE_FOR_ALL = Misconception(
+        "n-forgotten", "The mean of n measurements has the variance σ²/n: it weighs n times as much as a single one."
+    )
+    VARIANCES_AS_WEIGHTS = Misconception(
+        "variances-as-weights", "The more certain of the two counts more: each is weighed by the other's variance."
+    )
     GAUSSIAN_MAP = Formula(
         "gaussian-mean-map",
         mu_map,
@@ -409,6 +415,10 @@ with evaluate(False):
         hint="Weight the prior mean by σ² and the data's mean by n σ₀².",
         note="For a known variance $σ^2$ and the prior $N(μ_0, σ_0^2)$.",
         place=Place.BEYOND,
+        misread={
+            ONE_FOR_ALL: (sigma2 * prior_mean + prior_variance * mu_hat) / (prior_variance + sigma2),
+            VARIANCES_AS_WEIGHTS: (n * prior_variance * prior_mean + sigma2 * mu_hat) / (n * prior_variance + sigma2),
+        },
     )
     MEAN_OF_X, MEAN_OF_Y = (
         Formula(
@@ -528,6 +538,9 @@ with evaluate(False):
             BINOMIAL: _ORDERS * _MEAN_LIKELIHOOD,
         },
     )
+    PRIORS_FORGOTTEN = Misconception(
+        "priors-forgotten", "The priors count, too: the ratio of the evidences is multiplied by that of the priors."
+    )
     POSTERIOR_ODDS = Formula(
         "posterior-odds",
         of_model(first_model) / of_model(second_model),
@@ -536,6 +549,9 @@ with evaluate(False):
         source="MacKay 2003, section 3.3",
         hint="Multiply the ratio of the evidences by the ratio of the priors; p(D) cancels.",
         place=Place.BEYOND,
+        misread={
+            PRIORS_FORGOTTEN: evidence(first_model) / evidence(second_model),
+        },
     )
 
     MODEL_POSTERIOR = Formula(

@@ -414,6 +414,9 @@ with evaluate(False):
         "other-table-selects",
         "The table that is updated selects the action; the other one only says what that action is worth.",
     )
+    ROLES_EXCHANGED = Misconception(
+        "roles-exchanged", "The table that is updated selects the action and the other one values it, not the reverse."
+    )
     DOUBLE_Q_ACTION = Formula(
         "double-q-action",
         Selected(t + 1),
@@ -424,6 +427,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             OTHER_TABLE_SELECTS: ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
+            ROLES_EXCHANGED: ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
         },
     )
     SAME_TABLE_EVALUATES = Misconception(
@@ -444,6 +448,8 @@ with evaluate(False):
         hidden=True,
         misread={
             SAME_TABLE_EVALUATES: Qi(i, S(t), A(t))
+            + alpha * (r(t + 1) + gamma * Qi(i, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
+            ROLES_EXCHANGED: Qi(i, S(t), A(t))
             + alpha * (r(t + 1) + gamma * Qi(i, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
             NOT_DISCOUNTED: Qi(i, S(t), A(t))
             + alpha * (r(t + 1) + Qi(j, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),

@@ -477,6 +477,7 @@ with evaluate(False):
         hint="Where a bad action has become too unlikely, 1 − ε stands for the ratio.",
         place=Place.WORKING,
     )
+    NOT_AVERAGED = Misconception("not-averaged", "A batch has the mean of its samples' objectives, not their sum.")
     PPO_BATCH = Formula(
         "ppo-batch",
         L,
@@ -485,6 +486,9 @@ with evaluate(False):
         source="Schulman et al. 2017, eq. 7",
         hint="Average the objective over the samples.",
         place=Place.WORKING,
+        misread={
+            NOT_AVERAGED: SumOver(L_t(t), t, Samples),
+        },
     )
     ENTROPY = Formula(
         "entropy",
