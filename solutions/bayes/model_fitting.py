@@ -17,11 +17,13 @@ from rldrill.solutions.sheet.bayes import (
     LINE_INTERCEPT,
     LINE_SLOPE,
     LINE_SLOPE_MAP,
+    MEAN_OF_MEANS,
     MEAN_OF_X,
     MEAN_OF_Y,
     MODEL_FITTING,
     N_FOR_N_MINUS_1,
     N_MINUS_1_FOR_N,
+    ONE_MEASUREMENT,
     PRODUCTS,
     SAMPLE_VARIANCE,
     SQUARES,
@@ -129,7 +131,14 @@ def prior_ignored(given: Given, work: Work) -> None:
     _fit(given, work, COIN_ML, GAUSSIAN_MEAN, LINE_SLOPE)
 
 
-MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, STANDARD_DEVIATION.where_it_shows(), prior_ignored)
+MISCONCEPTIONS = (
+    N_FOR_N_MINUS_1,
+    N_MINUS_1_FOR_N,
+    STANDARD_DEVIATION.where_it_shows(),
+    prior_ignored,
+    ONE_MEASUREMENT.where_it_shows(),
+    MEAN_OF_MEANS.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -15,6 +15,7 @@ from rldrill.solutions.rational import generator
 from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
     CLIP_WITHOUT_MIN,
+    GREATER_TERM,
     PPO,
     PPO_AT_THE_LOWER_BOUND,
     PPO_AT_THE_UPPER_BOUND,
@@ -24,6 +25,7 @@ from rldrill.solutions.sheet.policy_gradient import (
     PPO_UNCLIPPED,
     RATIO_INVERTED,
     SOFTMAX_POLICY,
+    TERM_CLIPPED,
 )
 from rldrill.solutions.work import Work
 
@@ -225,7 +227,13 @@ def wrong_side(given: Given, work: Work) -> None:
     solve(given, work, other)
 
 
-MISCONCEPTIONS = (CLIP_WITHOUT_MIN, wrong_side, RATIO_INVERTED)
+MISCONCEPTIONS = (
+    CLIP_WITHOUT_MIN,
+    wrong_side,
+    RATIO_INVERTED,
+    TERM_CLIPPED.where_it_shows(),
+    GREATER_TERM.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

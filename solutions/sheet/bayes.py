@@ -313,6 +313,9 @@ with evaluate(False):
             GAIN_ON_PREDICTION: read(t) + Kt(t) * (mean_bar(t) - read(t)),
         },
     )
+    SHARE_TAKEN = Misconception(
+        "share-taken-for-rest", "KC is the share of the variance that the measurement takes away; I − KC of it is left."
+    )
     KALMAN_COVARIANCE = Formula(
         "kalman-covariance",
         covariance(t),
@@ -321,6 +324,9 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, table 3.1, line 6",
         hint="A measurement makes the belief narrower, by the share K.",
         place=Place.BEYOND,
+        misread={
+            SHARE_TAKEN: Kt(t) * Ci * covariance_bar(t),
+        },
     )
 
     MODEL_FITTING = Formula(
@@ -400,6 +406,13 @@ with evaluate(False):
             STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1)),
         },
     )
+    ONE_MEASUREMENT = Misconception(
+        "counted-as-one", "The mean of n measurements counts n times as much as a single one: with n σ₀²."
+    )
+    MEAN_OF_MEANS = Misconception(
+        "prior-and-data-alike",
+        "The prior mean and that of the data do not count alike: weight them with σ² and n σ₀².",
+    )
     GAUSSIAN_MAP = Formula(
         "gaussian-mean-map",
         mu_map,
@@ -409,6 +422,10 @@ with evaluate(False):
         hint="Weight the prior mean by σ² and the data's mean by n σ₀².",
         note="For a known variance $σ^2$ and the prior $N(μ_0, σ_0^2)$.",
         place=Place.BEYOND,
+        misread={
+            ONE_MEASUREMENT: (sigma2 * prior_mean + prior_variance * mu_hat) / (prior_variance + sigma2),
+            MEAN_OF_MEANS: (prior_mean + mu_hat) / 2,
+        },
     )
     MEAN_OF_X, MEAN_OF_Y = (
         Formula(
@@ -560,6 +577,7 @@ with evaluate(False):
     BIC_SIGN = Misconception(
         "sign", "The log-likelihood is multiplied by −2, so that a better fit makes the BIC smaller."
     )
+    HALF_FIT = Misconception("two-forgotten", "The log-likelihood is multiplied by −2, not by −1.")
     BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs ln n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
     BIC = Formula(
@@ -574,6 +592,7 @@ with evaluate(False):
             BIC_SIGN: 2 * log_likelihood + k * log(n),
             BIC_WITHOUT_LOG: -2 * log_likelihood + k * n,
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
+            HALF_FIT: -log_likelihood + k * log(n),
         },
     )
 
@@ -617,7 +636,7 @@ def akaike() -> Formula:
             source="Burnham & Anderson 2002, section 2.2",
             hint="k counts the free parameters, each of which costs 2; the smallest AIC wins.",
             note="",
-            misread={},
+            misread={HALF_FIT: -log_likelihood + 2 * k},
         )
 
 

@@ -22,6 +22,7 @@ from rldrill.solutions.sheet.temporal_difference import (
 from rldrill.solutions.work import Work
 
 Traces = dict[str, Value]
+Values = dict[str, Value]
 
 
 def solve(given: Given, work: Work) -> None:
@@ -54,21 +55,43 @@ def trace_late(given: Given, work: Work) -> None:
     _learn(given, work, lambda _state, before, _after: before)
 
 
-MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING)
+@slip(
+    "errors-from-the-start",
+    "Each TD error reads the values as the earlier transitions have left them, not those from before the run.",
+    when=lambda given: given.known is None and len(given.trajectory.rewards) > 1,
+)
+def errors_stale(given: Given, work: Work) -> None:
+    """All TD errors by the values from before the run."""
+    start = {state: exact(value) for state, value in given.values.items()} | dict.fromkeys(
+        given.trajectory.terminal, ZERO
+    )
+    _learn(given, work, lambda _state, _before, after: after, lambda _values: start)
 
 
-def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Traces]) -> None:
-    """Every transition moves the values by the traces that ``moving`` makes of those before it and after it."""
+MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING, errors_stale.where_it_shows())
+
+
+def _learn(
+    given: Given,
+    work: Work,
+    moving: Callable[[str, Traces, Traces], Traces],
+    seen: Callable[[Values], Values] = lambda values: values,
+) -> None:
+    """Every transition moves the values by the traces that ``moving`` makes of those before it and after it.
+
+    The TD error reads what ``seen`` makes of the values.
+    """
     if given.known is not None:
-        find_and_finish(given, work, lambda read: _learned(given, work, moving, read))
+        find_and_finish(given, work, lambda read: _learned(given, work, moving, seen, read))
     else:
-        work.answer(_learned(given, work, moving, exact))
+        work.answer(_learned(given, work, moving, seen, exact))
 
 
 def _learned(
     given: Given,
     work: Work,
     moving: Callable[[str, Traces, Traces], Traces],
+    seen: Callable[[Values], Values],
     read: Callable[[Scalar], Value],
 ) -> dict[str, Value]:
     run = given.trajectory
@@ -84,7 +107,7 @@ def _learned(
         before = traces | {state: traces.get(state, ZERO)}
         traces = {s: work.step(formula, s=s, t=time, e=before, **known) for s in before}
         e = moving(state, before, traces)
-        known["delta"] = {time: work.step(TD_ERROR, t=time, V=values, **known)}
+        known["delta"] = {time: work.step(TD_ERROR, t=time, V=seen(values), **known)}
         values = values | {s: work.step(TD_LAMBDA_BY_ERROR, s=s, t=time, V=values, e=e, **known) for s in e}
     return {state: values[state] for state in given.visited}
 
