@@ -112,7 +112,7 @@ with evaluate(False):
         source="Bertsekas 2017, section 3.1, with the sign of a reward",
         hint="Add the rewards of all times, those of the first and the last time included.",
     )
-    ACTION_SIGN = Misconception("sign-of-feedback", "The feedback has a minus sign: the action is −L s.")
+    ACTION_SIGN = Misconception("sign-of-feedback", "The action is minus the gain times the state.")
     LQR_ACTION = Formula(
         "lqr-action",
         Ut(t),
