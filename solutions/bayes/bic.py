@@ -24,7 +24,6 @@ from rldrill.solutions.sheet.bayes import (
     BIC_SIGN,
     BIC_WITHOUT_LOG,
     COIN_ML,
-    HALF_FIT,
     LOG_LIKELIHOOD,
     akaike,
     share_of_each,
@@ -210,7 +209,7 @@ def largest_wins(given: Given, work: Work) -> None:
     _compare(given, work, better=1)
 
 
-MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10, HALF_FIT.where_it_shows())
+MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10)
 
 
 def oracle(given: Given) -> Answers:

@@ -25,7 +25,6 @@ from rldrill.solutions.sheet.policy_gradient import (
     PPO_UNCLIPPED,
     RATIO_INVERTED,
     SOFTMAX_POLICY,
-    TERM_CLIPPED,
 )
 from rldrill.solutions.work import Work
 
@@ -227,13 +226,7 @@ def wrong_side(given: Given, work: Work) -> None:
     solve(given, work, other)
 
 
-MISCONCEPTIONS = (
-    CLIP_WITHOUT_MIN,
-    wrong_side,
-    RATIO_INVERTED,
-    TERM_CLIPPED.where_it_shows(),
-    GREATER_TERM.where_it_shows(),
-)
+MISCONCEPTIONS = (CLIP_WITHOUT_MIN, wrong_side, RATIO_INVERTED, GREATER_TERM.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

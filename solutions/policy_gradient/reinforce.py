@@ -10,7 +10,6 @@ from rldrill.solutions.sheet.policy_gradient import (
     FIRST_RETURN_EVERYWHERE,
     GRADIENT_ASCENT,
     LOG_FORGOTTEN,
-    MEAN_OVER_STEPS,
     REINFORCE,
     REINFORCE_ESTIMATE,
     REWARD_FOR_RETURN,
@@ -40,7 +39,6 @@ MISCONCEPTIONS = (
     LOG_FORGOTTEN,
     REWARD_FOR_RETURN,
     DISCOUNTED_AGAIN.where_it_shows(),
-    MEAN_OVER_STEPS.where_it_shows(),
 )
 
 

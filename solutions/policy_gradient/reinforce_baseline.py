@@ -14,7 +14,6 @@ from rldrill.solutions.sheet.policy_gradient import (
     DISCOUNTED_AGAIN,
     GRADIENT_ASCENT,
     LOG_FORGOTTEN,
-    MEAN_OVER_STEPS,
     REINFORCE_BASELINE,
 )
 from rldrill.solutions.softmax import discounted_returns, episode_gradient, known_run, returns, scores
@@ -43,7 +42,6 @@ MISCONCEPTIONS = (
     DESCENT,
     LOG_FORGOTTEN.where_it_shows(),
     DISCOUNTED_AGAIN.where_it_shows(),
-    MEAN_OVER_STEPS.where_it_shows(),
 )
 
 

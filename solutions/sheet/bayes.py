@@ -545,6 +545,9 @@ with evaluate(False):
             BINOMIAL: _ORDERS * _MEAN_LIKELIHOOD,
         },
     )
+    PRIOR_ODDS_FORGOTTEN = Misconception(
+        "prior-odds-forgotten", "The ratio of the evidences is multiplied by that of the priors: p(M) counts, too."
+    )
     POSTERIOR_ODDS = Formula(
         "posterior-odds",
         of_model(first_model) / of_model(second_model),
@@ -553,6 +556,9 @@ with evaluate(False):
         source="MacKay 2003, section 3.3",
         hint="Multiply the ratio of the evidences by the ratio of the priors; p(D) cancels.",
         place=Place.BEYOND,
+        misread={
+            PRIOR_ODDS_FORGOTTEN: evidence(first_model) / evidence(second_model),
+        },
     )
 
     MODEL_POSTERIOR = Formula(

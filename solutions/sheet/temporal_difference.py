@@ -164,7 +164,6 @@ with evaluate(False):
     BOOTSTRAP_AT_START = Misconception(
         "bootstrap-at-start",
         "The value is that of the state that is reached after n steps, not of the one that the return starts from.",
-        when=_given("gamma"),
     )
     FROM_TIME_0 = Misconception(
         "from-time-0",

@@ -58,14 +58,11 @@ def trace_late(given: Given, work: Work) -> None:
 @slip(
     "errors-from-the-start",
     "Each TD error reads the values as the earlier transitions have left them, not those from before the run.",
-    when=lambda given: given.known is None and len(given.trajectory.rewards) > 1,
+    when=lambda given: len(given.trajectory.rewards) > 1,
 )
 def errors_stale(given: Given, work: Work) -> None:
     """All TD errors by the values from before the run."""
-    start = {state: exact(value) for state, value in given.values.items()} | dict.fromkeys(
-        given.trajectory.terminal, ZERO
-    )
-    _learn(given, work, lambda _state, _before, after: after, lambda _values: start)
+    _learn(given, work, lambda _state, _before, after: after, lambda start, _values: start)
 
 
 MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING, errors_stale.where_it_shows())
@@ -75,11 +72,11 @@ def _learn(
     given: Given,
     work: Work,
     moving: Callable[[str, Traces, Traces], Traces],
-    seen: Callable[[Values], Values] = lambda values: values,
+    seen: Callable[[Values, Values], Values] = lambda _start, values: values,
 ) -> None:
     """Every transition moves the values by the traces that ``moving`` makes of those before it and after it.
 
-    The TD error reads what ``seen`` makes of the values.
+    The TD errors read what ``seen`` makes of the values before the run and those of their time.
     """
     if given.known is not None:
         find_and_finish(given, work, lambda read: _learned(given, work, moving, seen, read))
@@ -91,13 +88,13 @@ def _learned(
     given: Given,
     work: Work,
     moving: Callable[[str, Traces, Traces], Traces],
-    seen: Callable[[Values], Values],
+    seen: Callable[[Values, Values], Values],
     read: Callable[[Scalar], Value],
 ) -> dict[str, Value]:
     run = given.trajectory
     known = knowns.trajectory(run) | {name: read(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
     values = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
-    traces: Traces = {}
+    start, traces = values, Traces()
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
     work.recall(TD_LAMBDA_BACKWARD)
     if len(given.visited) > 1:
@@ -107,7 +104,7 @@ def _learned(
         before = traces | {state: traces.get(state, ZERO)}
         traces = {s: work.step(formula, s=s, t=time, e=before, **known) for s in before}
         e = moving(state, before, traces)
-        known["delta"] = {time: work.step(TD_ERROR, t=time, V=seen(values), **known)}
+        known["delta"] = {time: work.step(TD_ERROR, t=time, V=seen(start, values), **known)}
         values = values | {s: work.step(TD_LAMBDA_BY_ERROR, s=s, t=time, V=values, e=e, **known) for s in e}
     return {state: values[state] for state in given.visited}
 
