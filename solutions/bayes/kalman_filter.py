@@ -21,6 +21,7 @@ from rldrill.solutions.sheet.bayes import (
     KALMAN_MOVE_MEAN,
     NOISES_EXCHANGED,
     PROCESS_NOISE_FORGOTTEN,
+    SHARE_TAKEN,
     VARIANCES_FOR_INVERSES,
     without_command,
 )
@@ -111,6 +112,7 @@ MISCONCEPTIONS = (
     VARIANCES_FOR_INVERSES,
     PROCESS_NOISE_FORGOTTEN,
     NOISES_EXCHANGED.where_it_shows(),
+    SHARE_TAKEN.where_it_shows(),
 )
 
 

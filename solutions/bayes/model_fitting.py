@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-from msgspec.structs import replace
-
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
 from rldrill.solutions.exact import exact, told
 from rldrill.solutions.formula.formula import Formula, slip
@@ -19,12 +17,13 @@ from rldrill.solutions.sheet.bayes import (
     LINE_INTERCEPT,
     LINE_SLOPE,
     LINE_SLOPE_MAP,
+    MEAN_OF_MEANS,
     MEAN_OF_X,
     MEAN_OF_Y,
     MODEL_FITTING,
     N_FOR_N_MINUS_1,
     N_MINUS_1_FOR_N,
-    ONE_FOR_ALL,
+    ONE_MEASUREMENT,
     PRODUCTS,
     SAMPLE_VARIANCE,
     SQUARES,
@@ -133,17 +132,14 @@ def prior_ignored(given: Given, work: Work) -> None:
     _fit(given, work, COIN_ML, GAUSSIAN_MEAN, LINE_SLOPE)
 
 
-def _of_a_mean(given: Given) -> bool:
-    return given.sample is not None and given.sample.prior is not None
-
-
 MISCONCEPTIONS = (
     N_FOR_N_MINUS_1,
     N_MINUS_1_FOR_N,
     STANDARD_DEVIATION.where_it_shows(),
     prior_ignored,
-    replace(ONE_FOR_ALL.where_it_shows(), when=_of_a_mean),
-    replace(VARIANCES_AS_WEIGHTS.where_it_shows(), when=_of_a_mean),
+    ONE_MEASUREMENT.where_it_shows(),
+    MEAN_OF_MEANS.where_it_shows(),
+    VARIANCES_AS_WEIGHTS.where_it_shows(),
 )
 
 

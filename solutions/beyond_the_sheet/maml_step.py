@@ -10,6 +10,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.beyond_the_sheet import (
     FIRST_ORDER,
+    FROM_ADAPTED,
     MAML_DERIVATIVE,
     MAML_FIRST_ORDER,
     MAML_GRADIENT,
@@ -19,7 +20,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (FIRST_ORDER, NOT_ADAPTED)
+MISCONCEPTIONS = (FIRST_ORDER, NOT_ADAPTED, FROM_ADAPTED.where_it_shows())
 
 
 def solve(given: Given, work: Work) -> None:

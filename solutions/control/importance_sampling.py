@@ -8,12 +8,14 @@ from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
+    FIRST_ACTION_ALONE,
     IMPORTANCE_RATIO,
     ORDINARY_FOR_WEIGHTED,
     ORDINARY_IMPORTANCE_SAMPLING,
     RATIO_INVERTED,
     RATIOS_ADDED,
     RATIOS_FORGOTTEN,
+    SUM_OF_EPISODES,
     WEIGHTED_FOR_ORDINARY,
     WEIGHTED_IMPORTANCE_SAMPLING,
 )
@@ -26,6 +28,8 @@ MISCONCEPTIONS = (
     WEIGHTED_FOR_ORDINARY,
     ORDINARY_FOR_WEIGHTED,
     RATIOS_FORGOTTEN,
+    FIRST_ACTION_ALONE.where_it_shows(),
+    SUM_OF_EPISODES.where_it_shows(),
 )
 
 

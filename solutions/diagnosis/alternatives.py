@@ -16,6 +16,7 @@ from rldrill.solutions.diagnosis.typed import approximate
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, flat, probes
+from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Quantity, SumOver
 from rldrill.solutions.matrices import is_matrix, matrix
@@ -31,7 +32,15 @@ LIKELY = 1.5
 PLAIN = 6.0
 
 
-def at_one(application: Application) -> Iterator[Cause]:
+def can_be_made(mistake: Misconception, given: Any) -> bool:
+    """Whether a mistake that is stated beside a formula can be made here; it may speak of fields of another family."""
+    try:
+        return mistake.applies(given)
+    except (AttributeError, TypeError):
+        return True
+
+
+def at_one(application: Application, given: Any) -> Iterator[Cause]:
     """What can be done at one application, with the value that comes out."""
     formula, right, known, value = application.formula, application.right, application.known, application.value
     base = Cause("", 0.0, application, formula, was=value)
@@ -58,6 +67,8 @@ def at_one(application: Application) -> Iterator[Cause]:
                     in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
                     yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
     for mistake, misread in formula.misread.items():
+        if not can_be_made(mistake, given):
+            continue
         other = value_or_none(misread, known)
         if other is not None and same_form(other, value) and hashable(other) not in edited:
             yield replace(base, kind="listed", weight=weights.STATED * weights.AT_ONE, mistake=mistake, became=other)

@@ -173,7 +173,11 @@ class _Follower:
         application = self.search.applications[number]
         every = self.search.alternatives(application)
         if line is not None:
-            every = [*every, *_of_an_equation(application), *put_in_otherwise(application, line)]
+            every = [
+                *every,
+                *_of_an_equation(application, self.search.problem.given),
+                *put_in_otherwise(application, line),
+            ]
         found = [
             cause
             for cause in every
@@ -222,10 +226,10 @@ def _shape(value: Any) -> tuple[int, int]:
     return (1, len(list(value))) if isinstance(value, Vector) else (value.nrows(), value.ncols())
 
 
-def _of_an_equation(application: Application) -> Iterator[Cause]:
+def _of_an_equation(application: Application, given: Any) -> Iterator[Cause]:
     """What can be done where the right side of an equation is worked out, with the values that solve the system."""
     if application.equation:
-        for cause in at_one(replace(application, equation=False)):
+        for cause in at_one(replace(application, equation=False), given):
             yield replace(cause, application=application)
 
 

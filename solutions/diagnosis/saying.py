@@ -114,6 +114,7 @@ _WHOLE = {
     "exchanged-cells": "the answers for {what} are exchanged",
     "all-signs": "all signs are turned",
     "sign": "the sign is wrong",
+    "answer-reversed": "the answers are given in the opposite order",
     "answer-transposed": "rows and columns are exchanged",
     "answer-scaled": "all entries are wrong by the same factor, {was}",
     "one-minus": "you gave 1 minus the answer",

@@ -13,6 +13,7 @@ from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.alternatives import (
     at_one,
     at_place,
+    can_be_made,
     hashable,
     numbers,
     of_numbers,
@@ -108,10 +109,11 @@ class Search:
     def _stated(self) -> Iterator[Candidate]:
         """What is stated beside a formula as its mistake, though the family does not list it among its own."""
         own = {mistake.key for mistake in self.solution.applicable}
+        given = self.problem.given
         read: dict[Misconception, dict[Expr, Expr]] = defaultdict(dict)
         for formula in self.solution.work.read:
             for mistake, right in formula.misread.items():
-                if mistake.key not in own:
+                if mistake.key not in own and can_be_made(mistake, given):
                     read[mistake][formula.right] = right
         for mistake, rights in read.items():
             yield from self._candidate(Cause("listed", weights.STATED, mistake=mistake), Change(rights))
@@ -249,7 +251,7 @@ class Search:
         if application.number in self._alternatives:
             return
         every = []
-        for cause in at_one(application):
+        for cause in at_one(application, self.problem.given):
             every.append(cause)
             yield
         found: dict[Any, list[Cause]] = defaultdict(list)

@@ -116,6 +116,7 @@ ANSWERS = {
     "exchanged-cells": 4.0,
     "all-signs": 9.0,
     "sign": 9.0,
+    "answer-reversed": 5.0,
     "answer-transposed": 5.0,
     "answer-scaled": 0.4,
     "one-minus": 6.0,

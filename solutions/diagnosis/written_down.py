@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
-from rldrill.problems.parts import Matrix, Number, Part
+from rldrill.problems.parts import Matrix, Number, Numbers, Part
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.alternatives import plain
@@ -29,6 +29,8 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
         for one, two in combinations(key, 2):
             yield _cause("exchanged-cells", f"{one} and {two}"), {**key, one: key[two], two: key[one]}
         yield _cause("all-signs"), {name: -value for name, value in key.items()}
+        if isinstance(part.kind, Numbers) and len(key) > 3:  # the opposite order of three is an exchange of two
+            yield _cause("answer-reversed"), dict(zip(key, reversed(list(key.values())), strict=True))
     for name, value in key.items():
         for slip, other in slips(value):
             yield _cause(slip, name if len(key) > 1 else ""), {**key, name: other}

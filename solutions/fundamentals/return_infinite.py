@@ -12,6 +12,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import (
+    FIRST_DISCOUNTED,
     FIRST_OF_ROUND,
     GEOMETRIC_SERIES,
     PLUS_FOR_MINUS,
@@ -72,6 +73,7 @@ MISCONCEPTIONS = (
     PLUS_FOR_MINUS,
     ROUND_OF_ONE,
     FIRST_OF_ROUND.where_it_shows(),
+    FIRST_DISCOUNTED.where_it_shows(),
 )
 
 

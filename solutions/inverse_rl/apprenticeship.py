@@ -13,6 +13,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
     DISTANCE_SQUARED,
+    OTHER_END,
     PROJECTION,
     PROJECTION_LENGTH,
     REMAINING,
@@ -101,7 +102,7 @@ def not_projected(given: Given, work: Work) -> None:
     _project(given, work, lambda _, policy: policy)
 
 
-MISCONCEPTIONS = (not_projected, DISTANCE_SQUARED.where_it_shows())
+MISCONCEPTIONS = (not_projected, DISTANCE_SQUARED.where_it_shows(), OTHER_END.where_it_shows())
 
 
 def _vector(values: tuple[Any, ...]) -> Point:

@@ -14,6 +14,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     ACTOR_CRITIC,
     CRITIC,
+    CRITIC_WITHOUT_ALPHA,
     NEXT_VALUE_FORGOTTEN,
     TD_ERROR,
     WEIGHTED_BY_REWARD,
@@ -95,7 +96,13 @@ def error_late(given: Given, work: Work) -> None:
     _act(given, work, known | {"delta": left})
 
 
-MISCONCEPTIONS = (NEXT_VALUE_FORGOTTEN, WEIGHTED_BY_REWARD, swapped, error_late.where_it_shows())
+MISCONCEPTIONS = (
+    NEXT_VALUE_FORGOTTEN,
+    WEIGHTED_BY_REWARD,
+    swapped,
+    error_late.where_it_shows(),
+    CRITIC_WITHOUT_ALPHA.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

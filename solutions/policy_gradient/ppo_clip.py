@@ -17,6 +17,7 @@ from rldrill.solutions.rational import generator
 from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
     CLIP_WITHOUT_MIN,
+    GREATER_TERM,
     NOT_AVERAGED,
     PPO,
     PPO_AT_THE_LOWER_BOUND,
@@ -232,6 +233,7 @@ MISCONCEPTIONS = (
     CLIP_WITHOUT_MIN,
     wrong_side,
     RATIO_INVERTED,
+    GREATER_TERM.where_it_shows(),
     replace(NOT_AVERAGED.where_it_shows(), when=lambda given: len(given.samples) > 1),
 )
 

@@ -313,6 +313,9 @@ with evaluate(False):
             GAIN_ON_PREDICTION: read(t) + Kt(t) * (mean_bar(t) - read(t)),
         },
     )
+    SHARE_TAKEN = Misconception(
+        "share-taken-for-rest", "KC is the share of the variance that the measurement takes away; I − KC of it is left."
+    )
     KALMAN_COVARIANCE = Formula(
         "kalman-covariance",
         covariance(t),
@@ -321,6 +324,9 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, table 3.1, line 6",
         hint="A measurement makes the belief narrower, by the share K.",
         place=Place.BEYOND,
+        misread={
+            SHARE_TAKEN: Kt(t) * Ci * covariance_bar(t),
+        },
     )
 
     MODEL_FITTING = Formula(
@@ -400,8 +406,12 @@ with evaluate(False):
             STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1)),
         },
     )
-    ONE_FOR_ALL = Misconception(
-        "n-forgotten", "The mean of n measurements has the variance σ²/n: it weighs n times as much as a single one."
+    ONE_MEASUREMENT = Misconception(
+        "counted-as-one", "The mean of n measurements counts n times as much as a single one: with n σ₀²."
+    )
+    MEAN_OF_MEANS = Misconception(
+        "prior-and-data-alike",
+        "The prior mean and that of the data do not count alike: weight them with σ² and n σ₀².",
     )
     VARIANCES_AS_WEIGHTS = Misconception(
         "variances-as-weights", "The more certain of the two counts more: each is weighed by the other's variance."
@@ -416,7 +426,8 @@ with evaluate(False):
         note="For a known variance $σ^2$ and the prior $N(μ_0, σ_0^2)$.",
         place=Place.BEYOND,
         misread={
-            ONE_FOR_ALL: (sigma2 * prior_mean + prior_variance * mu_hat) / (prior_variance + sigma2),
+            ONE_MEASUREMENT: (sigma2 * prior_mean + prior_variance * mu_hat) / (prior_variance + sigma2),
+            MEAN_OF_MEANS: (prior_mean + mu_hat) / 2,
             VARIANCES_AS_WEIGHTS: (n * prior_variance * prior_mean + sigma2 * mu_hat) / (n * prior_variance + sigma2),
         },
     )
@@ -576,6 +587,7 @@ with evaluate(False):
     BIC_SIGN = Misconception(
         "sign", "The log-likelihood is multiplied by −2, so that a better fit makes the BIC smaller."
     )
+    HALF_FIT = Misconception("two-forgotten", "The log-likelihood is multiplied by −2, not by −1.")
     BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs ln n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
     BIC = Formula(
@@ -590,6 +602,7 @@ with evaluate(False):
             BIC_SIGN: 2 * log_likelihood + k * log(n),
             BIC_WITHOUT_LOG: -2 * log_likelihood + k * n,
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
+            HALF_FIT: -log_likelihood + k * log(n),
         },
     )
 
@@ -633,7 +646,7 @@ def akaike() -> Formula:
             source="Burnham & Anderson 2002, section 2.2",
             hint="k counts the free parameters, each of which costs 2; the smallest AIC wins.",
             note="",
-            misread={},
+            misread={HALF_FIT: -log_likelihood + 2 * k},
         )
 
 

@@ -345,6 +345,11 @@ with evaluate(False):
     NOT_ADAPTED = Misconception(
         "gradient-before-adaptation", "The outer loss is that of the adapted parameters θ′, not that of θ itself."
     )
+    FROM_ADAPTED = Misconception(
+        "outer-step-from-adapted",
+        "The outer step starts from θ itself; the adapted θ′ serves only to work out the gradient.",
+        when=lambda given: len(given.tasks) == 1 and given.theta is not None,
+    )
     MAML_OUTER = Formula(
         "maml-step",
         theta0,
@@ -358,5 +363,7 @@ with evaluate(False):
         misread={
             FIRST_ORDER: theta0 - beta * SumOver(curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
             NOT_ADAPTED: theta0 - beta * SumOver(curvature(i) * (theta0 - optimum(i)), i, Tasks),
+            FROM_ADAPTED: adapted(1)
+            - beta * SumOver((1 - alpha * curvature(i)) * curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
         },
     )

@@ -469,6 +469,11 @@ with evaluate(False):
         "An episode has the product of its actions' probabilities, so their ratios are multiplied, not added.",
         when=lambda given: any(len(episode.rewards) > 1 for episode in given.episodes),
     )
+    FIRST_ACTION_ALONE = Misconception(
+        "first-action-alone",
+        "The ratio of an episode is the product over all its actions, not that of its first action alone.",
+        when=lambda given: any(len(episode.rewards) > 1 for episode in given.episodes),
+    )
     IMPORTANCE_RATIO = Formula(
         "importance-ratio",
         rho(i),
@@ -480,6 +485,7 @@ with evaluate(False):
         misread={
             RATIO_INVERTED: ProductOver(behaviour(A(t), S(t)) / pi(A(t), S(t)), t, _STEPS),
             RATIOS_ADDED: SumOver(pi(A(t), S(t)) / behaviour(A(t), S(t)), t, _STEPS),
+            FIRST_ACTION_ALONE: pi(A(0), S(0)) / behaviour(A(0), S(0)),
         },
     )
     WEIGHTED_FOR_ORDINARY = Misconception(
@@ -488,6 +494,11 @@ with evaluate(False):
     )
     RATIOS_FORGOTTEN = Misconception(
         "ratios-forgotten", "A plain mean estimates the value of the behaviour policy b; the ratios correct for that."
+    )
+    SUM_OF_EPISODES = Misconception(
+        "sum-of-episodes",
+        "The estimate is a mean over the episodes: divide the sum by their number n.",
+        when=lambda given: len(given.episodes) > 1,
     )
     ORDINARY_IMPORTANCE_SAMPLING = Formula(
         "ordinary-importance-sampling",
@@ -500,6 +511,7 @@ with evaluate(False):
         misread={
             WEIGHTED_FOR_ORDINARY: SumOver(rho(i) * Ri(i), i, _EPISODES) / SumOver(rho(i), i, _EPISODES),
             RATIOS_FORGOTTEN: SumOver(Ri(i), i, _EPISODES) / n,
+            SUM_OF_EPISODES: SumOver(rho(i) * Ri(i), i, _EPISODES),
         },
     )
     ORDINARY_FOR_WEIGHTED = Misconception(

@@ -133,7 +133,9 @@ with evaluate(False):
     )
     UNDISCOUNTED = Misconception("no-discount", "Later rewards are discounted by powers of γ.")
     LINEAR_DISCOUNT = Misconception(
-        "gamma-times-i", "The discount of a reward i steps later is the power γⁱ, not the product γ·i."
+        "gamma-times-i",
+        "The discount of a reward i steps later is the power γⁱ, not the product γ·i.",
+        when=lambda given: given.gamma != 1,
     )
     RETURN = Formula(
         "return",
@@ -229,6 +231,7 @@ with evaluate(False):
             PLUS_FOR_MINUS: _FIRST * Pow(1 + gamma**n, -1),
             ROUND_OF_ONE: _FIRST * Pow(1 - gamma, -1),
             FIRST_OF_ROUND: r(t + 1) * Pow(1 - gamma, -1),
+            FIRST_DISCOUNTED: gamma * _FIRST * Pow(1 - gamma**n, -1),
         },
     )
 

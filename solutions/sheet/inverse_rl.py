@@ -232,6 +232,9 @@ with evaluate(False):
         sign="≈",
     )
     _TOWARDS = mu_now(i) - mu_bar(i)
+    OTHER_END = Misconception(
+        "share-from-the-other-end", "The share c is counted from the old point μ̄, not from the new policy's μ(π)."
+    )
     PROJECTION_LENGTH = Formula(
         "projection-length",
         step_length,
@@ -240,6 +243,10 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 3.1",
         hint="Project the way to the expert onto the way to the new policy.",
         place=Place.BEYOND,
+        misread={
+            OTHER_END: SumOver(_TOWARDS * (mu_now(i) - mu_expert(i)), i, Features)
+            * Pow(SumOver(_TOWARDS**2, i, Features), -1),
+        },
     )
     PROJECTION = Formula(
         "projection",

@@ -112,6 +112,7 @@ with evaluate(False):
         source="Bertsekas 2017, section 3.1, with the sign of a reward",
         hint="Add the rewards of all times, those of the first and the last time included.",
     )
+    ACTION_SIGN = Misconception("sign-of-feedback", "The action is minus the gain times the state.")
     LQR_ACTION = Formula(
         "lqr-action",
         Ut(t),
@@ -119,6 +120,9 @@ with evaluate(False):
         title="Linear state feedback",
         source="Bertsekas 2017, section 3.1",
         hint="Multiply the gain by the state, and change the sign.",
+        misread={
+            ACTION_SIGN: Lt(t) * St(t),
+        },
     )
     POSITIVE_S = Misconception(
         "cost-to-go-for-value",
@@ -285,7 +289,12 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 left=value(t),
                 right=(Q if notation.costs else -Q) + Mul(*ahead, Transposed(A), after, A) - turned * gain(t),
             ),
-            replace(LQR_ACTION, left=action(t), right=-gain(t) * state(t)),
+            replace(
+                LQR_ACTION,
+                left=action(t),
+                right=-gain(t) * state(t),
+                misread={ACTION_SIGN: gain(t) * state(t)},
+            ),
             replace(LQR_BRACKET, right=bracket),
             replace(LQR_PRODUCT, right=both),
             replace(LQR_SOLVED, left=gain(t)),

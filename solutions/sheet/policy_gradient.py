@@ -5,7 +5,7 @@ Weights, features and gradients are vectors; weights and features are also known
 
 from typing import Any
 
-from sympy import evaluate, exp, log
+from sympy import Pow, evaluate, exp, log
 
 from rldrill.problems.mathematics import (
     Accent,
@@ -31,11 +31,13 @@ from rldrill.solutions.formula.notation import (
     Counting,
     Expected,
     Features,
+    Greatest,
     Least,
     MeanOver,
     P,
     Qpi,
     S,
+    Size,
     Successors,
     SumOver,
     T,
@@ -164,6 +166,11 @@ with evaluate(False):
         "The question leaves out the further factor γᵗ: the return from a step on is not discounted once more.",
         when=lambda given: given.gamma != 1 and _several_steps(given),
     )
+    MEAN_OVER_STEPS = Misconception(
+        "mean-over-steps",
+        "The gradient is the sum over the steps of the episode; it is not divided by their number.",
+        when=_several_steps,
+    )
     REINFORCE_ESTIMATE = Formula(
         "reinforce-estimate",
         gradient,
@@ -177,6 +184,7 @@ with evaluate(False):
             FIRST_RETURN_EVERYWHERE: SumOver(_LOG_GRADIENT * G_t(0), t, _EPISODE),
             REWARD_FOR_RETURN: SumOver(_LOG_GRADIENT * r(t + 1), t, _EPISODE),
             DISCOUNTED_AGAIN: SumOver(gamma**t * _LOG_GRADIENT * G_t(t), t, _EPISODE),
+            MEAN_OVER_STEPS: Pow(T, -1) * SumOver(_LOG_GRADIENT * G_t(t), t, _EPISODE),
         },
     )
     DESCENT = Misconception(
@@ -269,6 +277,10 @@ with evaluate(False):
     LOG_FORGOTTEN = Misconception(
         "log-forgotten", "The score is the gradient of log π, not that of π itself: ∇ log π = ∇π/π."
     )
+    FEATURES_ALIKE = Misconception(
+        "features-averaged-alike",
+        "In the expected features each action counts with its probability π(a′|s), not all with the same weight.",
+    )
     SCORE_FUNCTION = Formula(
         "score-function",
         score(a, s),
@@ -281,6 +293,7 @@ with evaluate(False):
             FEATURES_ALONE: f_vector(s, a),
             EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices),
             LOG_FORGOTTEN: pi(a, s) * (f_vector(s, a) - SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices)),
+            FEATURES_ALIKE: f_vector(s, a) - Pow(Size(Choices), -1) * SumOver(f_vector(s, a1), a1, Choices),
         },
     )
 
@@ -300,6 +313,9 @@ with evaluate(False):
             NEXT_VALUE_FORGOTTEN: r(t + 1) - V(S(t)),
         },
     )
+    CRITIC_WITHOUT_ALPHA = Misconception(
+        "critic-without-alpha", "The critic moves its value by α times the TD error, not by all of it."
+    )
     CRITIC = Formula(
         "critic",
         V(S(t)),
@@ -308,6 +324,9 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 13.5",
         hint="The critic learns by TD(0): its value moves by α times the TD error.",
         sign="←",
+        misread={
+            CRITIC_WITHOUT_ALPHA: V(S(t)) + delta(t),
+        },
     )
     WEIGHTED_BY_REWARD = Misconception(
         "actor-weighted-by-reward", "The actor's step is weighted by the critic's TD error, not by the reward."
@@ -360,6 +379,7 @@ with evaluate(False):
         misread={
             BASELINE_ON_THE_POLICY: SumOver((_LOG_GRADIENT - b_of(S(t)) * ones) * G_t(t), t, _EPISODE),
             DISCOUNTED_AGAIN: SumOver(gamma**t * _LOG_GRADIENT * delta(t), t, _EPISODE),
+            MEAN_OVER_STEPS: Pow(T, -1) * SumOver(_LOG_GRADIENT * delta(t), t, _EPISODE),
         },
     )
     ADVANTAGE_SIGN = Misconception(
@@ -432,6 +452,9 @@ with evaluate(False):
         hint="The ratio times the advantage.",
         place=Place.WORKING,
     )
+    TERM_CLIPPED = Misconception(
+        "term-clipped", "It is the ratio that is clipped; the advantage is multiplied with it afterwards."
+    )
     PPO_CLIPPED = Formula(
         "ppo-clipped",
         clipped(t),
@@ -440,11 +463,17 @@ with evaluate(False):
         source="Schulman et al. 2017, eq. 7",
         hint="Bring the ratio between 1 − ε and 1 + ε, then multiply by the advantage.",
         place=Place.WORKING,
+        misread={
+            TERM_CLIPPED: Clipped(rho(t) * A_t(t), 1 - epsilon, 1 + epsilon),
+        },
     )
     CLIP_WITHOUT_MIN = Misconception(
         "clip-without-min",
         "The objective is the smaller of the unclipped and the clipped term, not always the clipped one.",
         when=lambda given: any(keeps_the_worse(sample, given) for sample in given.samples),
+    )
+    GREATER_TERM = Misconception(
+        "greater-term", "The objective is the smaller of the unclipped and the clipped term, not the greater."
     )
     PPO = Formula(
         "ppo",
@@ -457,6 +486,7 @@ with evaluate(False):
         hidden=True,
         misread={
             CLIP_WITHOUT_MIN: clipped(t),
+            GREATER_TERM: Greatest(unclipped(t), clipped(t)),
         },
     )
     PPO_AT_THE_UPPER_BOUND = Formula(

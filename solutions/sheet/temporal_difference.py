@@ -97,6 +97,18 @@ with evaluate(False):
         "The n-step return has the power λⁿ⁻¹: the one-step return is not weakened by λ.",
         when=lambda given: given.bootstraps,
     )
+    LAMBDA_EXCHANGED = Misconception(
+        "lambda-exchanged",
+        "λ and 1 − λ are exchanged: the n-step return has the weight (1 − λ)λⁿ⁻¹.",
+        when=lambda given: given.bootstraps,
+    )
+    AVERAGED_ALIKE = Misconception(
+        "averaged-alike",
+        "The returns do not all count alike: the n-step return has the weight (1 − λ)λⁿ⁻¹.",
+        when=lambda given: given.bootstraps,
+    )
+    _EXCHANGED = lam * SumOver((1 - lam) ** (n - 1) * Gn(t, n), n, Counting(1, T - t - 1))
+    _ALL_OF_THEM = SumOver(Gn(t, n), n, Counting(1, T - t - 1))
     _CLOSING_CUT_OFF = lam ** (T - t - 1) * Gn(t, T - t)
     LAMBDA_RETURN_CUT_OFF = Formula(
         "lambda-return-cut-off",
@@ -111,6 +123,8 @@ with evaluate(False):
             FORGOT_CLOSING: (1 - lam) * _WEIGHTED,
             CLOSING_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING_CUT_OFF,
             POWER_ONE_LATE: (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING_CUT_OFF,
+            LAMBDA_EXCHANGED: _EXCHANGED + (1 - lam) ** (T - t - 1) * Gn(t, T - t),
+            AVERAGED_ALIKE: (_ALL_OF_THEM + Gn(t, T - t)) / (T - t),
         },
     )
     LAMBDA_RETURN = Formula(
@@ -127,6 +141,8 @@ with evaluate(False):
             FORGOT_CLOSING: (1 - lam) * _WEIGHTED,
             CLOSING_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING,
             POWER_ONE_LATE: (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING,
+            LAMBDA_EXCHANGED: _EXCHANGED + (1 - lam) ** (T - t - 1) * G(t),
+            AVERAGED_ALIKE: (_ALL_OF_THEM + G(t)) / (T - t),
         },
     )
 
@@ -145,6 +161,15 @@ with evaluate(False):
     ONE_REWARD_TOO_MANY = Misconception(
         "one-reward-too-many", "n steps earn n rewards; the next reward is already inside the value."
     )
+    BOOTSTRAP_AT_START = Misconception(
+        "bootstrap-at-start",
+        "The value is that of the state that is reached after n steps, not of the one that the return starts from.",
+    )
+    FROM_TIME_0 = Misconception(
+        "from-time-0",
+        "The return from time t begins with the reward rₜ₊₁, not with r₁.",
+        when=lambda given: any(time for time, _ in given.asked),
+    )
     N_STEP_RETURN = Formula(
         "n-step-return",
         Gn(t, n),
@@ -157,6 +182,8 @@ with evaluate(False):
             BOOTSTRAP_UNDISCOUNTED: _REWARDS + V(S(t + n)),
             BOOTSTRAP_ONE_SHORT: _REWARDS + gamma ** (n - 1) * V(S(t + n)),
             ONE_REWARD_TOO_MANY: SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n)) + gamma**n * V(S(t + n)),
+            BOOTSTRAP_AT_START: _REWARDS + gamma**n * V(S(t)),
+            FROM_TIME_0: SumOver(gamma**i * r(1 + i), i, Counting(0, n - 1)) + gamma**n * V(S(n)),
         },
     )
 

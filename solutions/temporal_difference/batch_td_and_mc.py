@@ -130,7 +130,18 @@ def other_visits(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"visits": "every"}), work)
 
 
-MISCONCEPTIONS = (td_for_monte_carlo, monte_carlo_for_td, other_visits)
+@slip(
+    "times-ignored",
+    "An episode that was observed several times counts as often as it was observed.",
+    when=lambda given: len({episode.times for episode in given.episodes}) > 1,
+)
+def times_ignored(given: Given, work: Work) -> None:
+    """Every row of the table as one episode."""
+    once = tuple(episode.model_copy(update={"times": 1}) for episode in given.episodes)
+    solve(given.model_copy(update={"episodes": once}), work)
+
+
+MISCONCEPTIONS = (td_for_monte_carlo, monte_carlo_for_td, other_visits, times_ignored.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

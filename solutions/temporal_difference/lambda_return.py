@@ -13,9 +13,11 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
+    AVERAGED_ALIKE,
     CLOSING_LIKE_OTHERS,
     FORGOT_CLOSING,
     FORGOT_ONE_MINUS_LAMBDA,
+    LAMBDA_EXCHANGED,
     LAMBDA_RETURN,
     LAMBDA_RETURN_CUT_OFF,
     POWER_ONE_LATE,
@@ -23,7 +25,15 @@ from rldrill.solutions.sheet.temporal_difference import (
 from rldrill.solutions.temporal_difference.n_step_return import n_step
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (FORGOT_ONE_MINUS_LAMBDA, FORGOT_CLOSING, CLOSING_LIKE_OTHERS, POWER_ONE_LATE, STEP_UNDISCOUNTED)
+MISCONCEPTIONS = (
+    FORGOT_ONE_MINUS_LAMBDA,
+    FORGOT_CLOSING,
+    CLOSING_LIKE_OTHERS,
+    POWER_ONE_LATE,
+    STEP_UNDISCOUNTED,
+    LAMBDA_EXCHANGED.where_it_shows(),
+    AVERAGED_ALIKE.where_it_shows(),
+)
 
 
 def solve(given: Given, work: Work) -> None:

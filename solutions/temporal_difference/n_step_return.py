@@ -13,15 +13,24 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
+    BOOTSTRAP_AT_START,
     BOOTSTRAP_ONE_SHORT,
     BOOTSTRAP_UNDISCOUNTED,
+    FROM_TIME_0,
     N_STEP_RETURN,
     N_STEP_RETURN_STEP_BY_STEP,
     ONE_REWARD_TOO_MANY,
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (BOOTSTRAP_UNDISCOUNTED, BOOTSTRAP_ONE_SHORT, ONE_REWARD_TOO_MANY, STEP_UNDISCOUNTED)
+MISCONCEPTIONS = (
+    BOOTSTRAP_UNDISCOUNTED,
+    BOOTSTRAP_ONE_SHORT,
+    ONE_REWARD_TOO_MANY,
+    STEP_UNDISCOUNTED,
+    BOOTSTRAP_AT_START.where_it_shows(),
+    FROM_TIME_0.where_it_shows(),
+)
 
 
 def solve(given: Given, work: Work) -> None:

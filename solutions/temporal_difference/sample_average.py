@@ -3,6 +3,7 @@
 from rldrill.problems.temporal_difference.sample_average import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
@@ -68,10 +69,21 @@ def _weighted(given: Given, work: Work) -> None:
         find(given, work, value)
 
 
+@slip(
+    "old-value-as-one-return",
+    "The old value is the mean of n(s) returns; it counts as often, not as a single one.",
+    when=lambda given: given.known is None and any(given.counts.get(state, 0) > 1 for state in given.visited),
+)
+def counts_forgotten(given: Given, work: Work) -> None:
+    """Every state as if it had been visited once at most."""
+    solve(given.model_copy(update={"counts": {state: min(count, 1) for state, count in given.counts.items()}}), work)
+
+
 MISCONCEPTIONS = (
     NOT_COUNTED,
     COUNTED_TWICE,
     MEAN_OF_TWO.where_it_shows(),
+    counts_forgotten.where_it_shows(),
     OLDEST_FIRST,
     ONE_POWER_MORE,
     EQUAL_WEIGHTS,

@@ -22,6 +22,7 @@ from rldrill.solutions.sheet.temporal_difference import (
 from rldrill.solutions.work import Work
 
 Traces = dict[str, Value]
+Values = dict[str, Value]
 
 
 def solve(given: Given, work: Work) -> None:
@@ -54,27 +55,46 @@ def trace_late(given: Given, work: Work) -> None:
     _learn(given, work, lambda _state, before, _after: before)
 
 
-MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING)
+@slip(
+    "errors-from-the-start",
+    "Each TD error reads the values as the earlier transitions have left them, not those from before the run.",
+    when=lambda given: len(given.trajectory.rewards) > 1,
+)
+def errors_stale(given: Given, work: Work) -> None:
+    """All TD errors by the values from before the run."""
+    _learn(given, work, lambda _state, _before, after: after, lambda start, _values: start)
 
 
-def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Traces]) -> None:
-    """Every transition moves the values by the traces that ``moving`` makes of those before it and after it."""
+MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING, errors_stale.where_it_shows())
+
+
+def _learn(
+    given: Given,
+    work: Work,
+    moving: Callable[[str, Traces, Traces], Traces],
+    seen: Callable[[Values, Values], Values] = lambda _start, values: values,
+) -> None:
+    """Every transition moves the values by the traces that ``moving`` makes of those before it and after it.
+
+    The TD errors read what ``seen`` makes of the values before the run and those of their time.
+    """
     if given.known is not None:
-        find_and_finish(given, work, lambda read: _learned(given, work, moving, read))
+        find_and_finish(given, work, lambda read: _learned(given, work, moving, seen, read))
     else:
-        work.answer(_learned(given, work, moving, exact))
+        work.answer(_learned(given, work, moving, seen, exact))
 
 
 def _learned(
     given: Given,
     work: Work,
     moving: Callable[[str, Traces, Traces], Traces],
+    seen: Callable[[Values, Values], Values],
     read: Callable[[Scalar], Value],
 ) -> dict[str, Value]:
     run = given.trajectory
     known = knowns.trajectory(run) | {name: read(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
     values = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
-    traces: Traces = {}
+    start, traces = values, Traces()
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
     work.recall(TD_LAMBDA_BACKWARD)
     if len(given.visited) > 1:
@@ -84,7 +104,7 @@ def _learned(
         before = traces | {state: traces.get(state, ZERO)}
         traces = {s: work.step(formula, s=s, t=time, e=before, **known) for s in before}
         e = moving(state, before, traces)
-        known["delta"] = {time: work.step(TD_ERROR, t=time, V=values, **known)}
+        known["delta"] = {time: work.step(TD_ERROR, t=time, V=seen(start, values), **known)}
         values = values | {s: work.step(TD_LAMBDA_BY_ERROR, s=s, t=time, V=values, e=e, **known) for s in e}
     return {state: values[state] for state in given.visited}
 

@@ -221,3 +221,27 @@ def test_a_value_of_nine_numbers_is_taken_apart_and_a_larger_one_is_not(states: 
     responses = search.responses(large)
     assert len(responses) == others
     assert (responses[0][0] is None) is (states > 3)
+
+
+def test_a_list_in_the_opposite_order_is_named() -> None:
+    # R₃ = 8, R₂ = 2 + 4 = 6, R₁ = 4 + 3 = 7, R₀ = 1/2 + 7/2 = 4
+    exercise = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": ["1/2", 4, 2, 8]}})
+    diagnosis = exercise.diagnose("8, 6, 7, 4")
+    assert diagnosis.kind == "answer-reversed"
+    assert diagnosis.sentence == "It looks as if the answers are given in the opposite order."
+
+
+def test_a_mistake_that_cannot_be_made_is_not_told() -> None:
+    # γ = 1: the ratio is (1/2)/(1/4) · (1/2)/(1/4) = 4, the return 3 + 5 = 8. Without r₁ it is 5, and so it is with γ·i
+    # for γⁱ; but nobody multiplies by i where there is no discount.
+    half, quarter = {"on": "1/2", "off": "1/2"}, {"on": "1/4", "off": "3/4"}
+    episode = {"states": ["a", "b", "end"], "actions": ["on", "on"], "rewards": [3, 5], "terminal": ["end"]}
+    given = {
+        "target": {"a": half, "b": half},
+        "behaviour": {"a": quarter, "b": quarter},
+        "gamma": 1,
+        "episodes": [episode],
+    }
+    exercise = rldrill.read({"family": "importance-sampling", "given": given})
+    assert exercise.check("32", "b").outcome is Outcome.RIGHT
+    assert "not the product γ·i" not in exercise.diagnose("20", "b").sentence

@@ -24,6 +24,7 @@ OTHER_QUESTION = {
     "block-of-the-wrong-action": "w's own block is told; of two actions the other one tells nothing",
     "weights-interleaved": "w's own block is told",
     "width-forgotten": "b is asked or used before",
+    "outer-step-from-adapted": "each of several tasks has an adapted parameter of its own",
     "update-for-target": "the step size is not stated where no target needs it, or is asked for",
 }
 
