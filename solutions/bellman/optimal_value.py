@@ -34,6 +34,7 @@ from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, te
 from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_V,
+    OPTIMAL_Q_BY_REWARD,
     OWN_VALUE,
     Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
@@ -234,6 +235,7 @@ def _at_random(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any
 _END_PAID = terminal_value(_optimal)
 MISCONCEPTIONS = (
     most_paid, first_actions, at_random, exceeds, Q_FORGOT_GAMMA,
+    replace(OPTIMAL_Q_BY_REWARD.where_it_shows(), when=lambda given: isinstance(given, Optimal)),
     replace(_END_PAID, when=lambda given: isinstance(given, Optimal) and _END_PAID.applies(given)),
     replace(OWN_VALUE, when=lambda given: isinstance(given, Optimal)),
 )  # fmt: skip

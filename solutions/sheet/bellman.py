@@ -250,6 +250,7 @@ with evaluate(False):
         misread={
             Q_FORGOT_GAMMA: SumOver(P(s, a, s1) * (R(s, a, s1) + Vstar(s1)), s1, Successors(s, a)),
             OWN_VALUE: SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vstar(s)), s1, Successors(s, a)),
+            OPTIMAL_Q_BY_REWARD: SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a)),
         },
     )
     TAIL_LEFT_OUT = Misconception(
