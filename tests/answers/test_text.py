@@ -361,6 +361,12 @@ def test_vectors_refused(text, length, fragment):
     assert fragment in refusal(read_vector, text, length).message
 
 
+def test_too_few_numbers_of_a_vector_are_told_which_are_needed():
+    assert refusal(read_vector, "1", 2, (), ["x", "y"]).message == "1 number was read, 2 are needed: x, y."
+    assert refusal(read_vector, "1, 2, 3", 2, (), ["x", "y"]).message == "3 numbers were read, 2 are needed: x, y."
+    assert refusal(read_vector, "1, 2", 1, (), ["x"]).message.startswith("2 numbers were read, 1 is needed.")
+
+
 MATRICES = [
     "[[1,2],[3,4]]",
     "[1 2; 3 4]",
