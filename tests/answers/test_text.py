@@ -573,6 +573,16 @@ def test_policies(text):
     assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": ("fast",), "warm": ("slow",)}
 
 
+@pytest.mark.parametrize("text", ["both, slow", "cool: either, warm: slow", "Both; slow"])
+def test_both_of_two_actions_are_a_tie(text: str) -> None:
+    two = {"cool": ("slow", "fast"), "warm": ("slow", "fast")}
+    assert read_words(text, ["cool", "warm"], two) == {"cool": ("slow", "fast"), "warm": ("slow",)}
+    three = {"cool": ("slow", "fast", "stop"), "warm": ("slow", "fast")}
+    assert "is not one of slow, fast, stop" in refusal(read_words, text, ["cool", "warm"], three).message
+    named = {"cool": ("both", "fast"), "warm": ("slow", "fast")}
+    assert read_words("both, slow", ["cool", "warm"], named) == {"cool": ("both",), "warm": ("slow",)}
+
+
 @pytest.mark.parametrize("text", ["cool: fast", "cool: fast, warm: ", "fast, -"])
 def test_what_is_left_out_of_a_policy_is_not_read(text: str) -> None:
     assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": ("fast",)}
