@@ -16,6 +16,10 @@ _TABLE = "must be a table, in which every name has its value"
 _WHOLE = "{given} is not a whole number; write one, such as 3"
 _TRUTH = "{given} is neither true nor false; write one of them"
 _LIST = "must be a list; a single entry, too, stands in brackets: {listed}"
+#: Between the entries of a list that was given as one text; a comma without a space may be a decimal one.
+_BETWEEN = re.compile(r"\s*;\s*|,\s+")
+#: So many of them are shown.
+_SHOWN = 5
 #: What fields are called elsewhere.
 _ALSO = {
     "discount": "gamma", "discount_factor": "gamma", "step_size": "alpha", "learning_rate": "alpha", "lambda": "lam",
@@ -112,9 +116,16 @@ def says(fault: Mapping[str, Any]) -> str:
         return f"may hold {signs}; take them out"
     if kind not in _SAYS:
         return str(fault["msg"]).removeprefix("Value error, ").removesuffix(".")
-    listed = f"[{called(given)}]" if isinstance(given, str | int) else "[1, 2]"
+    listed = _as_list(given) if isinstance(given, str | int) else "[1, 2]"
     about = {key: str(value).lower() if key == "class_name" else value for key, value in context.items()}
     return _SAYS[kind].format(**about, given=called(given), listed=listed, length=len(str(given)))
+
+
+def _as_list(given: str | int) -> str:
+    """What was given without brackets, or with quotes around all of it, as the list that was meant."""
+    entries = _BETWEEN.split(given.strip(" []()")) if isinstance(given, str) else [given]
+    shown = [called(entry) for entry in entries[:_SHOWN]]
+    return f"[{', '.join([*shown, '…'] if len(entries) > _SHOWN else shown)}]"
 
 
 def _counted(kind: str, count: int, told: Mapping[str, Any]) -> str:

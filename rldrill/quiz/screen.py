@@ -57,6 +57,8 @@ _WORDS = {
     Outcome.WRONG: ("✗", ""),
     Outcome.UNREADABLE: ("?", "Not understood, and not counted: "),
 }
+#: What is said before the sentence that asks for entries that were left out: what was given was understood.
+_INCOMPLETE = "Incomplete, and not counted: "
 #: How a line of somebody's own working is marked.
 _STANDINGS = {
     "right": ("✓", "green"),
@@ -389,6 +391,8 @@ class Screen:
         says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
         says = by_name(says, part.part.kind)
         sign, before = _WORDS[outcome]
+        if verdict.missing:
+            before = _INCOMPLETE
         style = f"bold {_STYLES[outcome]}"
         read = _read_otherwise(verdict, part)
         kind = part.part.kind

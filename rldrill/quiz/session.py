@@ -120,7 +120,8 @@ class Record(Struct):
         texts = {record.part.label: record.counted[-1].typed for record in before if record.counted}
         graded = self.exercise.grade({**texts, current.part.label: text})[current.part.label]
         if graded.verdict is not None and graded.verdict.missing:  # it can be typed again
-            graded = replace(graded, verdict=Verdict(Outcome.UNREADABLE, graded.verdict.missing))
+            missing = graded.verdict.missing
+            graded = replace(graded, verdict=Verdict(Outcome.UNREADABLE, missing, missing=missing))
         current.answers.append(graded)
         current.made.append(self._mistakes(current, graded))
         if graded.accepted:

@@ -366,6 +366,12 @@ def test_vectors_refused(text, length, fragment):
     assert fragment in refusal(read_vector, text, length).message
 
 
+def test_too_few_numbers_of_a_vector_are_told_which_are_needed():
+    assert refusal(read_vector, "1", 2, (), ["x", "y"]).message == "1 number was read, 2 are needed: x, y."
+    assert refusal(read_vector, "1, 2, 3", 2, (), ["x", "y"]).message == "3 numbers were read, 2 are needed: x, y."
+    assert refusal(read_vector, "1, 2", 1, (), ["x"]).message.startswith("2 numbers were read, 1 is needed.")
+
+
 MATRICES = [
     "[[1,2],[3,4]]",
     "[1 2; 3 4]",
@@ -574,6 +580,16 @@ ACTIONS = {"cool": ["slow", "fast"], "warm": ["slow", "fast"]}
 )
 def test_policies(text):
     assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": ("fast",), "warm": ("slow",)}
+
+
+@pytest.mark.parametrize("text", ["both, slow", "cool: either, warm: slow", "Both; slow"])
+def test_both_of_two_actions_are_a_tie(text: str) -> None:
+    two = {"cool": ("slow", "fast"), "warm": ("slow", "fast")}
+    assert read_words(text, ["cool", "warm"], two) == {"cool": ("slow", "fast"), "warm": ("slow",)}
+    three = {"cool": ("slow", "fast", "stop"), "warm": ("slow", "fast")}
+    assert "is not one of slow, fast, stop" in refusal(read_words, text, ["cool", "warm"], three).message
+    named = {"cool": ("both", "fast"), "warm": ("slow", "fast")}
+    assert read_words("both, slow", ["cool", "warm"], named) == {"cool": ("both",), "warm": ("slow",)}
 
 
 @pytest.mark.parametrize("text", ["cool: fast", "cool: fast, warm: ", "fast, -"])

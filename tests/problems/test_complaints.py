@@ -54,6 +54,12 @@ LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
         ({"some": {"a": 1, "b": 2}}, "given.some: has 2 entries; it may have at most 1 entry."),
         ({"few": 1}, "given.few: must be a list; a single entry, too, stands in brackets: [1]."),
         ({"few": "ab"}, "given.few: must be a list; a single entry, too, stands in brackets: ['ab']."),
+        ({"few": "1, 2"}, "given.few: must be a list; a single entry, too, stands in brackets: ['1', '2']."),
+        ({"few": "[1; 2,5]"}, "given.few: must be a list; a single entry, too, stands in brackets: ['1', '2,5']."),
+        (
+            {"few": "1, 2, 3, 4, 5, 6"},
+            "given.few: must be a list; a single entry, too, stands in brackets: ['1', '2', '3', '4', '5', …].",
+        ),
         ({"few": True}, "given.few: must be a list; a single entry, too, stands in brackets: [true]."),
         ({"few": None}, "given.few: must be a list; a single entry, too, stands in brackets: [1, 2]."),
         ({"few": [1, 2, "x"]}, "given.few[3]: 'x' is not a whole number; write one, such as 3."),

@@ -6,6 +6,7 @@ import pytest
 from rich.console import Console
 
 import rldrill
+from rldrill.exercise import Exercise
 from rldrill.problems.identity import MAX_SEED
 from rldrill.quiz.keys import HELP
 from rldrill.quiz.recording import Recorder
@@ -17,7 +18,14 @@ EXERCISE = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards"
 RIGHT = ("4", "3", "")
 
 
-def printed(session: Session, *typed: str, number: int = 1, plain: bool = False, seconds: float = 0.0) -> list[str]:
+#: V^π is 1 in s and 6 in t.
+TWO_VALUES = rldrill.read({"family": "value-from-action-values", "given": {
+    "values": {"s": {"l": 1, "r": 3}, "t": {"l": 2, "r": 6}}, "policy": {"s": {"l": 1}, "t": {"r": 1}}}})  # fmt: skip
+
+
+def printed(
+    session: Session, *typed: str, number: int = 1, plain: bool = False, seconds: float = 0.0, of: Exercise = EXERCISE
+) -> list[str]:
     """The lines of a quiz of that problem, again and again, in which this is typed; then its input ends."""
     console = Console(file=StringIO(), width=100, color_system=None)
     lines = iter(typed)
@@ -29,7 +37,7 @@ def printed(session: Session, *typed: str, number: int = 1, plain: bool = False,
 
     clock = iter([0.0, *[seconds] * 1000])
     recorder = Recorder(clock=lambda: next(clock))
-    Screen(console, line, plain=plain, recorder=recorder).run([EXERCISE] * number, session)
+    Screen(console, line, plain=plain, recorder=recorder).run([of] * number, session)
     assert isinstance(console.file, StringIO)
     return [text.rstrip() for text in console.file.getvalue().splitlines()]
 
@@ -55,6 +63,12 @@ def test_more_than_forty_problems_have_no_bar() -> None:
 def test_where_the_time_decides_the_minute_is_told(seconds: float, minute: int) -> None:
     assert headers(Session(None, minutes=5), 1, seconds=seconds) == [f"Problem 1 · minute {minute} of 5  Return"]
     assert headers(Session(None), 1) == ["Problem 1  Return"]
+
+
+def test_half_an_answer_is_called_incomplete_not_misunderstood() -> None:
+    screen = "\n".join(printed(Session(1), "s: 1", of=TWO_VALUES))
+    assert "? Incomplete, and not counted: t is missing; give it too." in screen
+    assert "Not understood" not in screen
 
 
 def test_the_help_lists_every_key() -> None:
