@@ -145,7 +145,8 @@ def _vector(
     place = (lambda i: f"entry {given[i - 1] + 1}") if len(entries) != 1 else None
     readings = dict(zip(given, _numbers([entries[i] for i in given], parameters, place, most=most), strict=True))
     if length is not None and len(entries) != length:
-        needed = f"{length} {_are(length)} needed{f': {listed(names)}' if length > 1 and names else ''}."
+        shown = listed(re.sub('[{}"]', "", name) for name in names)  # as one may type them
+        needed = f"{length} {_are(length)} needed{f': {shown}' if length > 1 and names else ''}."
         raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), length)}")
     return tuple(readings.get(index) for index in range(len(entries)))
 
