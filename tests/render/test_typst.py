@@ -1,11 +1,13 @@
 """Blocks and mathematics as Typst: all compiles, nothing is read as code, nothing is too wide."""
 
+import io
 import math
 import re
 from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 
+import pypdf
 import pytest
 
 from printed import Word, words
@@ -244,3 +246,11 @@ def test_tables_that_just_fit_are_not_measured_and_two_stand_abreast() -> None:
 @pytest.mark.parametrize(("signs", "function"), [(48, "#flow("), (49, "#one-line(")])
 def test_values_of_48_signs_share_a_line_and_longer_ones_do_not(signs: int, function: str) -> None:
     assert block(Equation(EMPTY, (word("a" * signs), word("b")), ("", "")), PAGE).startswith(function)
+
+
+@pytest.mark.parametrize("word", ["Q-learning", "ε-greedy", "n-step"])
+def test_a_letter_and_its_word_stay_on_one_line(word: str) -> None:
+    for narrow in range(60, 140, 4):
+        page = f"#set page(width: {narrow}pt, height: 400pt, margin: 2pt)\n"
+        made = pypdf.PdfReader(io.BytesIO(pdf(page + text(f"Sarsa and then {word}, or a state-action pair"))))
+        assert word in made.pages[0].extract_text(), narrow

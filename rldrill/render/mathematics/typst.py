@@ -45,6 +45,8 @@ _MINUS = Glyph("−", "operator")
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 #: Equations of at most this many signs stand side by side.
 SHORT = 24
+#: What is not parted behind its hyphen: Q-learning, n-step.
+_LETTER_AND_WORD = re.compile(r"(?<![\w-])([^\W\d_]-[^\W\d_]+)(?![\w-])")
 
 
 def typst(math: Math) -> str:
@@ -109,8 +111,13 @@ def equation(math: Math, function: str = "eq") -> str:
 
 
 def plain(text: str) -> str:
-    """Text without mathematics as Typst markup, dollar signs and all."""
-    return f"#{quoted(text)};" if text else ""
+    """Text without mathematics as Typst markup, dollar signs and all; no line ends behind the hyphen of Q-learning."""
+    pieces = _LETTER_AND_WORD.split(text)
+    return "".join(
+        f"#box[#{quoted(piece)};]" if number % 2 else f"#{quoted(piece)};"
+        for number, piece in enumerate(pieces)
+        if piece
+    )
 
 
 def relation(sign: str) -> str:
