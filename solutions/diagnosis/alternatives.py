@@ -46,7 +46,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
     base = Cause("", 0.0, application, formula, was=value)
     for kind, other in slips(value):
         yield replace(base, kind=kind, weight=weights.VALUES[kind], became=other)
-    if (old := application.old()) is not None and same_form(old, value):
+    if same_form(old := application.old(), value):
         yield replace(base, kind="kept", weight=weights.VALUES["kept"], became=old)
         yield from _of_table(application, base)
     if application.equation:
@@ -56,21 +56,21 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
         if edit.kind in IN_ONE_TERM:
             pass
-        elif (other := value_or_none(edit.right, known)) is not None and same_form(other, value):
+        elif same_form(other := value_or_none(edit.right, known), value):
             if weights.IDEAS[edit.kind] >= PLAIN:
                 edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
         if edit.once is not None:
             for term, at in list(terms(edit.within, known))[:TERMS]:
                 other = value_or_none(edit.once, {**known, **at})
-                if other is not None and same_form(other, value):
+                if same_form(other, value):
                     in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
                     yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
     for mistake, misread in formula.misread.items():
         if not can_be_made(mistake, given):
             continue
         other = value_or_none(misread, known)
-        if other is not None and same_form(other, value) and hashable(other) not in edited:
+        if same_form(other, value) and hashable(other) not in edited:
             yield replace(base, kind="listed", weight=weights.STATED * weights.AT_ONE, mistake=mistake, became=other)
     if (crosswise := _crosswise(flat(right), known)) is not None:
         whole = Probe(right, right)
@@ -79,7 +79,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
     for probe in probes(right):
         for cause, letters in at_place(application, probe):
             other = value_or_none(probe.right, {**known, **letters})
-            if other is not None and same_form(other, value):
+            if same_form(other, value):
                 yield replace(cause, became=other)
 
 
@@ -252,7 +252,7 @@ def _distinct(values: Iterable[Any]) -> list[Any]:
 
 
 def same_form(other: Any, value: Any) -> bool:
-    """Whether one value can stand for another: numbers, vectors, matrices of a shape."""
+    """Whether one value can stand for another: numbers, vectors, matrices of a shape; none where there is no value."""
     if is_matrix(value):
         return is_matrix(other) and (other.nrows(), other.ncols()) == (value.nrows(), value.ncols())
     if isinstance(value, tuple):
