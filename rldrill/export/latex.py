@@ -26,6 +26,8 @@ _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \newsavebox{\fittedbox}
 \newcommand{\fitted}[1]{\par\noindent\sbox{\fittedbox}{#1}%%
   \ifdim\wd\fittedbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fittedbox}}\else\usebox{\fittedbox}\fi\par}
+%% A page ends rather before a problem than behind its first lines.
+\newcommand{\startproblem}{\par\vskip 0pt plus 8\baselineskip\penalty-200\vskip 0pt plus -8\baselineskip}
 \setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}\setlength{\emergencystretch}{3em}
 \pagestyle{headandfoot}
 \firstpageheader{}{}{}
@@ -77,7 +79,7 @@ def _problem(exercise: Exercise, told: Words, *, with_solutions: bool) -> str:
     title = latex_text(exercise.problem.family.title)
     parts = "\n".join(_part(exercise, part, told, with_solutions=with_solutions) for part in exercise.parts)
     question = latex_document(exercise.question())
-    return f"\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
+    return f"\\startproblem\n\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
 
 
 def _part(exercise: Exercise, part: Part, told: Words, *, with_solutions: bool) -> str:

@@ -1,7 +1,7 @@
 """LaTeX that every engine reads: it has no sign that only Unicode has."""
 
-from rldrill.problems.mathematics import mathematics
-from rldrill.render.mathematics.latex import latex_plain, latex_typed, typed
+from rldrill.problems.mathematics import Glyph, Row, mathematics
+from rldrill.render.mathematics.latex import latex, latex_plain, latex_typed, typed
 from rldrill.render.pictures.scene import Curve, Scene
 from rldrill.render.pictures.tikz import drawn
 
@@ -9,6 +9,14 @@ from rldrill.render.pictures.tikz import drawn
 def test_what_only_unicode_has_is_spelled_and_what_everybody_has_is_not() -> None:
     assert typed(r"V^\pi(s)≤2") == r"V^\pi(s){\ensuremath{\le}}2"
     assert latex_typed(mathematics("γ V(s) ≤ α")).isascii()
+
+
+def test_a_word_has_a_space_beside_what_follows_and_an_operator_its_own() -> None:
+    letter, word = Glyph("a", "variable"), Glyph("if", "word")
+    assert latex(mathematics('"step" 1')) == r"\text{step} \ 1"
+    assert latex(Row((word, letter))) == r"\text{if} \ a"
+    assert latex(Row((Glyph("ln", "word"), letter))) == r"\ln a"
+    assert latex(mathematics('"cool"(s)')) == r"\text{cool} \left( s \right)"
 
 
 def test_raised_and_lowered_signs_of_a_sentence_are_mathematics() -> None:

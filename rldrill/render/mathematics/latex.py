@@ -1,5 +1,6 @@
 """Mathematics as LaTeX, for Markdown, notebooks and flash cards."""
 
+from collections.abc import Iterator
 from functools import lru_cache
 
 from rldrill.problems.mathematics import (
@@ -16,7 +17,8 @@ from rldrill.problems.mathematics import (
     Tabular,
     is_sign,
 )
-from rldrill.render.mathematics.unicode import ABOVE, BELOW
+from rldrill.render.mathematics.spacing import needs_space
+from rldrill.render.mathematics.unicode import ABOVE, BELOW, unmarked
 
 _COMMANDS = {
     "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ε": r"\varepsilon", "θ": r"\theta",
@@ -38,6 +40,7 @@ _SPELLED = {
 _LOWERED = {small: _COMMANDS.get(sign, sign) for sign, small in BELOW.items()}
 _RAISED = {small: _COMMANDS.get(sign, sign) for sign, small in ABOVE.items()}
 _PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
+_OPERATORS = {Glyph(word, "word") for word in _PLAIN_WORDS}
 
 
 def latex_plain(text: str) -> str:
@@ -71,7 +74,7 @@ def latex(math: Math) -> str:
         case Glyph(text, style):
             return _glyph(text, style)
         case Row(items):
-            return " ".join(map(latex, items))
+            return " ".join(_spaced(items))
         case Fraction(numerator, denominator):
             return rf"\frac{{{latex(numerator)}}}{{{latex(denominator)}}}"
         case Script(body, below, above):
@@ -91,6 +94,15 @@ def latex(math: Math) -> str:
         case Tabular(rows, left, right):
             lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
             return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"
+
+
+def _spaced(items: tuple[Math, ...]) -> Iterator[str]:
+    """What stands side by side, with a space where a word needs one; an operator such as ln has its own."""
+    bare = [unmarked(item) for item in items]
+    for before, after, item in zip((None, *bare), bare, items, strict=False):
+        if before is not None and needs_space(before, after) and not {before, after} & _OPERATORS:
+            yield "\\"  # and the space behind it
+        yield latex(item)
 
 
 def _fence(sign: str) -> str:

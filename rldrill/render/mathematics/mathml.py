@@ -18,6 +18,7 @@ from rldrill.problems.mathematics import (
     Tabular,
     is_sign,
 )
+from rldrill.render.mathematics.spacing import needs_space
 from rldrill.render.mathematics.unicode import unmarked
 
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
@@ -168,7 +169,7 @@ def _row(items: tuple[Math, ...]) -> str:
     written: list[str] = []
     bare = tuple(map(unmarked, items))
     for before, after, item in zip((None, *bare), bare, items, strict=False):
-        if before is not None and _needs_space(before, after):
+        if before is not None and needs_space(before, after):
             written.append(_THIN)
         written.append(_SIGNED[item] if item in _SIGNED and (before is None or _opens(before)) else element(item))
     return "".join(written)
@@ -177,19 +178,3 @@ def _row(items: tuple[Math, ...]) -> str:
 def _opens(before: Math) -> bool:
     """Whether a sign behind this belongs to what follows."""
     return isinstance(before, Big) or (isinstance(before, Glyph) and before.style in _BEFORE_A_SIGN)
-
-
-def _needs_space(before: Math, item: Math) -> bool:
-    """Whether a word stands beside a letter, a number or another word."""
-    return (_is_word(before) and (_is_name(item) or isinstance(item, Fraction | Accent))) or (
-        _is_word(item) and (_is_name(before) or isinstance(before, Fence))
-    )
-
-
-def _is_word(math: Math) -> bool:
-    return isinstance(math, Glyph) and math.style == "word"
-
-
-def _is_name(math: Math) -> bool:
-    head = math.body if isinstance(math, Script) else math
-    return isinstance(head, Glyph) and head.style in ("variable", "word", "number")
