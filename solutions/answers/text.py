@@ -121,7 +121,7 @@ def read_vector(
         return _vector(member, length, parameters, names, called)
 
     body = _right_side(source)
-    if length != 1 and body.has("=≈") and len(_pieces(body, length, parameters)) == 1:
+    if length != 1 and body.has("=≈") and len(_pieces(body, length, parameters, called)) == 1:
         return _forms(source, vector, _given)  # (1/4, 2) = (0.25, 2)
     return vector(source)
 
@@ -133,12 +133,12 @@ def _given(entries: Iterable[Reading | None]) -> list[Reading]:
 def _vector(
     source: Source, length: int | None, parameters: Sequence[str], names: Sequence[str], called: Sequence[str]
 ) -> tuple[Reading | None, ...]:
-    entries = _pieces(source, length, parameters)
-    labels = [_LABEL.match(entry.text) for entry in entries]
+    entries = _pieces(source, length, parameters, called)
+    labels = _labels(entries, called)
     alone = len(entries) == 1 and not (labels[0] and entry_named(labels[0][2], names, called) is not None)
     if alone or not all(labels[1:]):
         source = _right_side(source)  # R = 1, 2
-        entries = _pieces(source, length, parameters)
+        entries = _pieces(source, length, parameters, called)
     entries = _unlabelled(entries, names, called)  # R_0 = 1, R_1 = 2
     most = max(_ENTRIES, length or 0)
     given = [index for index, entry in enumerate(entries) if not left_out(entry)] or range(len(entries))
@@ -151,21 +151,22 @@ def _vector(
     return tuple(readings.get(index) for index in range(len(entries)))
 
 
-def _pieces(source: Source, length: int | None, parameters: Sequence[str]) -> list[Source]:
-    """The entries of a vector; labels begin new ones: ``mu = 1 Sigma = 2``."""
+def _pieces(source: Source, length: int | None, parameters: Sequence[str], called: Sequence[str]) -> list[Source]:
+    """The entries of a vector; labels begin new ones: ``mu = 1 Sigma = 2``, ``mean 1 variance 2``."""
     factor, bracket = _scaled(source, parameters)
     if factor:
         return _times(factor, vector_entries(bracket, length))
     body = untransposed(source)
     inside, _ = unwrapped(body)
+    word = _called(called)
     labels = [
         index
         for index, sign in inside.outside()
         if sign.isspace()
-        and _NEXT_LABEL.match(inside.text, index + 1)
+        and (_NEXT_LABEL.match(inside.text, index + 1) or word.match(inside.text, index + 1))
         and inside.text[:index].rstrip()[-1:] not in "=≈:,;+-*/("
     ]
-    if labels and not inside.has(",;|\n"):
+    if (labels or word.match(inside.text)) and not inside.has(",;|\n"):
         return inside.split(lambda index, _: index in labels)
     return vector_entries(body, length)
 
@@ -441,8 +442,7 @@ def _unnamed(source: Source) -> Source:
 
 def _unlabelled(entries: list[Source], names: Sequence[str], called: Sequence[str]) -> list[Source]:
     """The entries without the ``R_0 =`` or ``R_0:`` before each; in the order of the names, if all are known."""
-    begins = re.compile(rf"()({'|'.join(called)})\s+(?=\S)", re.IGNORECASE) if called else _LABEL  # mean 5, variance 12
-    labels = [_LABEL.match(entry.text) or begins.match(entry.text) for entry in entries]
+    labels = _labels(entries, called)
     values = [
         entry.part(label.end(), len(entry.text)) if label else _right_side(entry)
         for entry, label in zip(entries, labels, strict=True)
@@ -460,6 +460,16 @@ def _unlabelled(entries: list[Source], names: Sequence[str], called: Sequence[st
             raise entry.unreadable(f"Entry {index + 1} is given twice; give every entry once.")
         placed[index] = value
     return [placed.get(index, Source("")) for index in range(len(names))]
+
+
+def _labels(entries: Sequence[Source], called: Sequence[str]) -> list[re.Match[str] | None]:
+    """What names each entry: ``R_0 =``, ``R_0:``; words that entries are called by need no sign, ``mean 5``."""
+    return [_LABEL.match(entry.text) or _called(called).match(entry.text) for entry in entries]
+
+
+def _called(words: Sequence[str]) -> re.Pattern[str]:
+    """One of these words before a value; nothing, where there are none."""
+    return re.compile(rf"()({'|'.join(words)})\s+(?=\S)" if words else "(?!)", re.IGNORECASE)
 
 
 def _scaled(source: Source, parameters: Sequence[str]) -> tuple[str, Source]:

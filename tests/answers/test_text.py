@@ -898,7 +898,16 @@ def test_entries_of_vectors_by_name(text, names):
 
 
 @pytest.mark.parametrize(
-    "text", ["mean 1, variance 2", "Variance = 2, Mean = 1", "v: 2, m: 1", "Sigma: 2, mean: 1", "variance 2; mu = 1"]
+    "text",
+    [
+        "mean 1, variance 2",
+        "mean 1 variance 2",
+        "Variance 2 mean 1",
+        "Variance = 2, Mean = 1",
+        "v: 2, m: 1",
+        "Sigma: 2, mean: 1",
+        "variance 2; mu = 1",
+    ],
 )
 def test_entries_of_vectors_by_what_they_are_called(text):
     assert values(read_vector(text, 2, (), ["μ_{1}", "Σ_{1}"], called=("mean", "variance"))) == [1, 2]
@@ -917,6 +926,9 @@ def test_names_that_are_not_known_may_mean_another_order(text):
 def test_one_named_entry_of_several_leaves_out_the_others():
     assert [reading and reading.value for reading in read_vector("y = 2", 2, (), ["x", "y"])] == [None, 2]
     assert "1 number was read, 2 are needed" in refusal(read_vector, "R = 2", 2, (), ["x", "y"]).message
+    for text in ("variance 2", "Variance: 2", "var = 2"):
+        alone = read_vector(text, 2, (), ["μ", "Σ"], called=("mean", "variance"))
+        assert [reading and reading.value for reading in alone] == [None, 2]
 
 
 def test_an_entry_that_is_given_twice_is_refused():
