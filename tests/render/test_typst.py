@@ -3,7 +3,7 @@
 import io
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import product
 from pathlib import Path
 
@@ -71,13 +71,13 @@ def assert_inside(data: bytes, folder: Path, margin: float) -> None:
     assert not [word for word in words_of(data, folder) if word.left < edge or word.right > word.width - edge]
 
 
-def exercises() -> list[Exercise]:
-    return [draw(name, level, seed) for name, seed in product(families(), (1, 2)) for level in family(name).levels]
+def exercises(seeds: Sequence[int]) -> list[Exercise]:
+    return [draw(name, level, seed) for name, seed in product(families(), seeds) for level in family(name).levels]
 
 
-def everything(room: float) -> str:
+def everything(room: float, seeds: Sequence[int]) -> str:
     parts = [block(formula.equation(), room) for formula in formulas().values()]
-    for exercise in exercises():
+    for exercise in exercises(seeds):
         parts += [document(exercise.question(), room), document(exercise.working(), room)]
         for part in exercise.parts:
             parts += [block(Paragraph(f"({part.label}) {part.ask}")), block(exercise.answer(part), room)]
@@ -85,11 +85,11 @@ def everything(room: float) -> str:
 
 
 def test_all_formulas_questions_and_workings_stay_inside_the_page(tmp_path: Path) -> None:
-    assert_inside(pdf(SETUP + everything(PAGE)), tmp_path, 2)
+    assert_inside(pdf(SETUP + everything(PAGE, (1,))), tmp_path, 2)
 
 
 def test_they_do_so_in_a_narrow_column_too(tmp_path: Path) -> None:
-    assert_inside(pdf(NARROW + everything(0)), tmp_path, 1)
+    assert_inside(pdf(NARROW + everything(0, (2,))), tmp_path, 1)
 
 
 def test_names_are_never_read_as_code(tmp_path: Path) -> None:
