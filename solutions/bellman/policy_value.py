@@ -61,8 +61,8 @@ MISCONCEPTIONS = (
     TRANSPOSED,
     EQUAL_SHARES,
     equal_chances(solve),
-    replace(FORGOT_GAMMA.where_it_shows(), when=lambda given: given.gamma != 1 and not given.average),
-    replace(DISCOUNTED_REWARD.where_it_shows(), when=lambda given: given.gamma != 1 and not given.average),
+    FORGOT_GAMMA.where_it_shows(),
+    replace(DISCOUNTED_REWARD.where_it_shows(), when=lambda given: given.gamma != 1),
 )
 
 

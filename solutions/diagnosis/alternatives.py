@@ -33,10 +33,14 @@ PLAIN = 6.0
 
 
 def can_be_made(mistake: Misconception, given: Any) -> bool:
-    """Whether a mistake that is stated beside a formula can be made here; it may speak of fields of another family."""
+    """Whether a mistake that is stated beside a formula can be made here.
+
+    Its condition may be written for the fields of the families that list it, and of a family without them it says
+    nothing. In those that list it nothing is caught: there ``Solution.applicable`` asks it.
+    """
     try:
         return mistake.applies(given)
-    except (AttributeError, TypeError):
+    except AttributeError:
         return True
 
 

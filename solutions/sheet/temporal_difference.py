@@ -165,11 +165,7 @@ with evaluate(False):
         "bootstrap-at-start",
         "The value is that of the state that is reached after n steps, not of the one that the return starts from.",
     )
-    FROM_TIME_0 = Misconception(
-        "from-time-0",
-        "The return from time t begins with the reward rₜ₊₁, not with r₁.",
-        when=lambda given: any(time for time, _ in given.asked),
-    )
+    FROM_TIME_0 = Misconception("from-time-0", "The return from time t begins with the reward rₜ₊₁, not with r₁.")
     N_STEP_RETURN = Formula(
         "n-step-return",
         Gn(t, n),
