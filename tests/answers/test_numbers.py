@@ -1,6 +1,5 @@
 """One number, in all the forms in which people write it: read as what it is, or refused with its readings named."""
 
-import time
 from fractions import Fraction
 
 import pytest
@@ -9,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from number_spellings import misread
+from promptness import at_once
 from rldrill.solutions.answers.numbers import plain
 from rldrill.solutions.answers.text import Unreadable, read_number
 
@@ -147,12 +147,10 @@ HOSTILE = [
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_spellings_take_no_time(text: str) -> None:
     read_number("exp(γ) + sqrt(2)", ["gamma"])
-    start = time.process_time()
-    with pytest.raises(Unreadable) as refused:
+    with at_once(), pytest.raises(Unreadable) as refused:
         read_number(text, ["gamma"])
     assert len(refused.value.message) < 300
     assert refused.value.message.isprintable()
-    assert time.process_time() - start < 0.5
 
 
 def test_a_first_power_above_a_line_is_shown_in_brackets() -> None:

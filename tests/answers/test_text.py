@@ -1,6 +1,5 @@
 """What is read from typed answers, what is refused and how, and that neither takes long."""
 
-import time
 from fractions import Fraction
 
 import pytest
@@ -9,6 +8,7 @@ from flint import fmpq
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from promptness import at_once
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
@@ -721,10 +721,9 @@ HOSTILE = [
 def test_hostile_texts_take_no_time(text):
     read_number("sqrt(2) + exp(γ) + sin(1)", ["gamma"])
     for read in READERS:
-        start = time.process_time()
-        unreadable = complaint(read, text)
+        with at_once():
+            unreadable = complaint(read, text)
         assert unreadable is None or len(unreadable.message) < 300
-        assert time.process_time() - start < 0.5  # 0.05 s is meant; the rest is for a slow machine
 
 
 @given(st.text(max_size=60))

@@ -6,7 +6,6 @@ import os
 import runpy
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -14,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from promptness import at_once
 from rldrill.exam.blueprint import read_blueprint
 from rldrill.exam.manifest import printed
 from rldrill.exam.roster import read_roster
@@ -89,11 +89,9 @@ def test_pipes_devices_and_loops_are_refused_at_once(tmp_path: Path) -> None:
     (tmp_path / "loop.csv").symlink_to(tmp_path / "loop.csv")
     with written(tmp_path, "huge.csv", HEAD).open("r+b") as file:
         file.truncate(2**30)  # a gigabyte that takes no room
-    begun = time.perf_counter()
-    report = verify([tmp_path / f"{name}.csv" for name in ("pipe", "device", "loop", "huge")])
+    report = verify([tmp_path / f"{name}.csv" for name in ("pipe", "device", "loop", "huge")])  # a pipe waits for ever
     assert len(report.refused) == 4
     assert report.exit_code == 3
-    assert time.perf_counter() - begun < 2
 
 
 def test_deep_and_long_tables_are_refused_in_a_sentence(tmp_path: Path) -> None:
@@ -201,9 +199,8 @@ def test_any_manifest_is_read_or_refused(tmp_path: Path, content: object) -> Non
 )
 def test_no_small_file_takes_long(tmp_path: Path, name: str, content: str) -> None:
     path = written(tmp_path, name, content)
-    begun = time.process_time()
-    verify([path])
-    assert time.process_time() - begun < 3
+    with at_once(yardsticks=600):
+        verify([path])
 
 
 def test_a_long_answer_costs_only_itself(tmp_path: Path) -> None:
@@ -236,9 +233,8 @@ PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61)
 def test_no_answer_takes_long(problem: str, answer: str) -> None:
     exercise = rldrill.load(problem)
     exercise.check("1")  # what is worked out once for a problem is no answer's doing
-    begun = time.process_time()
-    assert not exercise.check(answer).accepted
-    assert time.process_time() - begun < 0.4  # 0.05 s on a machine that does nothing else
+    with at_once():
+        assert not exercise.check(answer).accepted
 
 
 @pytest.mark.parametrize("problem", ["reinforce/3/3", "lqr-gain/2/4", "policy-value/2/7"])
@@ -246,7 +242,8 @@ def test_no_answer_in_the_shape_of_its_part_takes_long(problem: str) -> None:
     exercise = rldrill.load(problem)
     exercise.check("1")  # what is worked out once for a problem is no answer's doing
     for name, typed in HOSTILE["submissions"](exercise, exercise.parts[0]):
-        assert HOSTILE["taken"](exercise, typed) < 0.4, name  # 0.05 s on a machine that does nothing else
+        with at_once(name):
+            HOSTILE["judged"](exercise, typed)
 
 
 def test_a_number_too_long_for_a_root_ends_nothing() -> None:
