@@ -18,21 +18,21 @@ from measure import Measured
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.family import Family
 
-LEVEL, SEED, EACH = 2, 0, 4
-#: What takes longer is left to ``measure.py``; in milliseconds.
-_QUICK = 40
+LEVELS, SEED = (2, 3), 0
 
 
 def pinned(family: Family) -> dict[str, Any]:
-    """What is said of a few wrong answers to a problem of a family."""
-    exercise = drawn(family)
-    wrong = _wrong(exercise)
-    return {f"{exercise.id} {part}: {text}": {"made": made, **said(exercise, part, text)} for made, part, text in wrong}
+    """What is said of a few wrong answers to problems of a family."""
+    return {
+        f"{exercise.id} {part}: {text}": {"made": made, **said(exercise, part, text)}
+        for exercise in drawn(family)
+        for made, part, text in _wrong(exercise)
+    }
 
 
-def drawn(family: Family) -> Exercise:
-    """The problem whose wrong answers are pinned."""
-    return draw(family.name, LEVEL, SEED)
+def drawn(family: Family) -> list[Exercise]:
+    """The problems whose wrong answers are pinned."""
+    return [draw(family.name, level, SEED) for level in LEVELS if level in family.levels]
 
 
 def said(exercise: Exercise, part: str, text: str) -> dict[str, Any]:
@@ -43,19 +43,19 @@ def said(exercise: Exercise, part: str, text: str) -> dict[str, Any]:
 
 
 def _wrong(exercise: Exercise) -> Iterator[tuple[str, str, str]]:
+    """One wrong answer of every kind of error that is put down to what it was made by; and a number from nowhere."""
     measured = Measured(exercise.solution, None)
     errors = erroneous(exercise.solution, SEED)
     random.Random(str(exercise.id)).shuffle(errors)
     kinds: set[str] = set()
     for error in errors:
-        if len(kinds) < EACH and error.kind not in kinds and (found := measured.causes(error.part, error.text)):
-            causes, milliseconds = found
-            if milliseconds < _QUICK and measured.verdict(error, causes) == "right":
-                kinds.add(error.kind)
-                yield error.kind, error.part, error.text
+        found = None if error.kind in kinds else measured.causes(error.part, error.text)
+        if found is not None and measured.verdict(error, found[0]) == "right":
+            kinds.add(error.kind)
+            yield error.kind, error.part, error.text
     for part in exercise.parts:
         text = random_wrong(exercise.solution, part.label, SEED) if numeric(exercise.solution, part.label) else None
         found = None if text is None else measured.causes(part.label, text)
-        if text is not None and found is not None and not found[0] and found[1] < _QUICK:
+        if text is not None and found is not None and not found[0]:
             yield "nothing", part.label, text
             return
