@@ -132,7 +132,7 @@ def at_place(application: Application, probe: Probe) -> Iterator[tuple[Cause, di
     for term, at in every:
         here = {**known, **dict(zip((over.index.name for over in probe.within), term, strict=True))}
         was = value_or_none(probe.part, here)
-        if was is None or is_matrix(was) or isinstance(was, Vector) or not hasattr(was, "__add__"):
+        if not plain(was) and not isinstance(was, int):
             continue
         for kind, other in _others(probe.part, was, here):
             weight = weights.INSIDE[kind] * (weights.IN_ONE_TERM if len(every) > 1 else 1)

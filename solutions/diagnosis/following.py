@@ -15,13 +15,13 @@ from msgspec.structs import replace
 from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Root, Row, Script
 from rldrill.solutions.answers.rule import is_right
 from rldrill.solutions.answers.text import Reading, Unreadable, read_matrix, read_number
-from rldrill.solutions.diagnosis.alternatives import at_one, numbers, of_numbers
+from rldrill.solutions.diagnosis.alternatives import at_one, numbers, of_numbers, plain
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import approximate, near
 from rldrill.solutions.diagnosis.written_line import Numbers, by_the_numbers, numbers_typed, put_in_otherwise
-from rldrill.solutions.exact import NotReal, is_rational
+from rldrill.solutions.exact import NotReal
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import probes
 from rldrill.solutions.formula.typesetting import typeset
@@ -233,10 +233,6 @@ def _of_an_equation(application: Application, given: Any) -> Iterator[Cause]:
             yield replace(cause, application=application)
 
 
-def _number(value: Any) -> bool:
-    return not isinstance(value, str | tuple | Mapping | Vector) and not is_matrix(value)
-
-
 def _all_same(entries: Entries, values: Sequence[Any]) -> bool:
     return len(entries) == len(values) and all(_same(one, value) for one, value in zip(entries, values, strict=True))
 
@@ -266,7 +262,7 @@ def _places(right: Any, known: Mapping[str, Any]) -> Iterator[Any]:
                 value = value_of(probe.part, known)
             except UNDONE:
                 continue
-            if is_rational(value) or (_number(value) and hasattr(value, "__add__")):
+            if plain(value):
                 yield value
 
 

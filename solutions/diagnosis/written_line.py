@@ -53,8 +53,8 @@ def by_the_numbers(application: Application, causes: Iterable[Cause], line: Numb
     """Those of the causes whose line has the numbers that were written, or comes nearest to them."""
     right = _numbers_of(application, None)
     apart = [(_apart(_line_of(cause, application, right), line), cause) for cause in causes]
-    least = min((distance for distance, _ in apart), default=0)
-    return [cause for distance, cause in apart if distance == least]
+    apart.sort(key=lambda each: each[0])
+    return [cause for distance, cause in apart if distance == apart[0][0]]
 
 
 def put_in_otherwise(application: Application, line: Numbers) -> Iterator[Cause]:

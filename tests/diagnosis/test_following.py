@@ -159,3 +159,9 @@ def test_lines_are_as_far_apart_as_numbers_stand_in_one_alone() -> None:
     one, other = (Counter(map(Fraction, numbers)) for numbers in (("1/2", "3"), ("1/2", "4", "4")))
     assert _apart(one, other) == 3  # the 3, and 4 twice
     assert _apart(one, one) == 0
+
+
+@pytest.mark.parametrize(("line", "standing"), [("-5/7", "departs"), ("√4 + 8", "right"), ("(8 + 12)/2", "right")])
+def test_a_line_that_begins_with_a_sign_is_no_name(run: rldrill.Exercise, line: str, standing: str) -> None:
+    (told,) = run.follow([line]).lines  # what is right is 10
+    assert told.standing == standing

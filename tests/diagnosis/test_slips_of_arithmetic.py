@@ -3,8 +3,10 @@
 from typing import Any
 
 import pytest
+import sympy
 from flint import fmpq
 
+from rldrill.solutions.diagnosis.alternatives import _crosswise
 from rldrill.solutions.diagnosis.arithmetic import slips
 from rldrill.solutions.matrices import matrix
 from rldrill.solutions.rational import generator
@@ -106,3 +108,14 @@ def test_slips_in_a_matrix_are_those_in_its_entries_and_all_signs() -> None:
     assert found == [*listed, ("sign", [[0], [-2]])]
     assert [kind for kind, _ in slips(matrix([[fmpq(2)]]))] == [kind for kind, _ in IN_TWO]
     assert [other[0, 1] for kind, other in slips(matrix([[fmpq(0), fmpq(2)]])) if kind == "doubled"] == [4]
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "wrong"),
+    [("1/2", "1/3", "2/5"), ("3/4", "5/6", "4/5"), ("1/2", "3/2", None), ("1/2", "3", None), ("2", "1/3", None)],
+)
+def test_fractions_are_added_crosswise_where_that_is_more_work_than_the_right_way(
+    one: str, two: str, wrong: str | None
+) -> None:
+    left, right = sympy.symbols("x y")
+    assert _crosswise(left + right, {"x": q(one), "y": q(two)}) == (wrong and q(wrong))
