@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "diagnosis"))
 import pinned as diagnoses
 
+from handed_out import FILES, fingerprint
 from limits import limits
 from printing import SAID, page
 from rldrill.audit.checking import agrees
@@ -36,6 +37,7 @@ SCREENS = Path(__file__).with_name("screens")
 PROBLEMS = Path(__file__).with_name("problems.json")
 FIELDS = Path(__file__).with_name("fields.json")
 DIAGNOSES = Path(__file__).with_name("diagnoses.json")
+HANDED_OUT = Path(__file__).with_name("handed_out.json")
 PINNED = range(2)
 MEASURED = range(15)
 
@@ -76,6 +78,8 @@ rewrite(MINUTES, wanted, times)
 rewrite(VARIETY, wanted, varieties)
 rewrite(DIAGNOSES, wanted, {key: line for known in chosen for key, line in diagnoses.pinned(known).items()})
 rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
+pins = {name: fingerprint(make()) for name, make in FILES.items()}
+HANDED_OUT.write_text(json.dumps(pins, indent=1) + "\n", encoding="utf-8")
 for kind in WIDTHS:
     (SCREENS / f"{kind}.txt").write_text(transcript(kind), encoding="utf-8")
 for known in chosen:
