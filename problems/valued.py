@@ -141,11 +141,11 @@ def draw_worth(
     """
     ends = (setting.terminal,)
     places = (*setting.states[: shape.states], *ends)
-    certain = replace(shape, branches=1)
+    certain, ahead = replace(shape, branches=1), discounted(values, gamma)
     rows = [
         row
         for pair, worth in worths.items()
-        for row in draw_paying(rng, setting, places, pair, worth, values, gamma, certain if pair in sure else shape)
+        for row in draw_paying(rng, setting, places, pair, worth, ahead, certain if pair in sure else shape)
     ]
     return Model(story=setting.told(ends), transitions=tuple(rows), terminal=ends)
 
@@ -156,16 +156,14 @@ def draw_paying(
     places: tuple[str, ...],
     pair: tuple[str, str],
     worth: Fraction,
-    values: Mapping[str, Fraction],
-    gamma: Fraction,
+    ahead: Mapping[str, int | Fraction],
     shape: Shape,
     barred: str | None = None,
 ) -> list[Transition]:
-    """The transitions of one action, with whole rewards that make it worth what is wanted.
+    """The transitions of one action, with whole rewards that make it worth what is wanted with what is ahead.
 
     No two of its outcomes are worth the same, so that their probabilities matter; none is the place that is barred.
     """
-    ahead = {place: plain(gamma * value) for place, value in values.items()}
     wanted = plain(worth)
     for _ in range(_ATTEMPTS):
         targets = draw_targets(rng, setting, places, pair, shape, barred)
@@ -176,11 +174,16 @@ def draw_paying(
             continue
         if len({*map(add, rewards, later)}) == len(targets):
             return [
-                Transition(*pair, target, Fraction(share, whole), reward)
+                Transition(*pair, target, Fraction(share, whole), Fraction(reward))
                 for target, share, reward in zip(targets, shares, rewards, strict=True)
             ]
     target = next(place for place in setting.reached(places, *pair) if place != barred)
-    return [Transition(*pair, target, Fraction(1), worth - gamma * values.get(target, Fraction(0)))]
+    return [Transition(*pair, target, Fraction(1), worth - ahead.get(target, 0))]
+
+
+def discounted(values: Mapping[str, Fraction], gamma: Fraction) -> dict[str, int | Fraction]:
+    """What the states are worth a step before they are reached."""
+    return {state: plain(gamma * value) for state, value in values.items()}
 
 
 def draw_averaging(
@@ -188,10 +191,12 @@ def draw_averaging(
 ) -> tuple[tuple[Fraction, ...], list[Fraction] | None]:
     """Probabilities, and different whole numbers with that mean, if some are found."""
     shares, whole = rng.shares(count, denominators)
-    return tuple([Fraction(share, whole) for share in shares]), averaging(rng, shares, plain(mean) * whole)
+    numbers = averaging(rng, shares, plain(mean) * whole)
+    found = None if numbers is None else [*map(Fraction, numbers)]
+    return tuple([Fraction(share, whole) for share in shares]), found
 
 
-def averaging(rng: Draws, shares: tuple[int, ...], total: int | Fraction) -> list[Fraction] | None:
+def averaging(rng: Draws, shares: tuple[int, ...], total: int | Fraction) -> list[int] | None:
     """Different whole numbers that make up a total, each taken as often as its share says, as far as some are found."""
     first, *others = shares
     near = total // sum(shares) - 4
@@ -199,7 +204,7 @@ def averaging(rng: Draws, shares: tuple[int, ...], total: int | Fraction) -> lis
         rest = [near + rng.below(9) for _ in others]
         number, left = divmod(total - sum(map(mul, others, rest)), first)
         if not left and len({number, *rest}) == len(shares):
-            return [*map(Fraction, (number, *rest))]
+            return [number, *rest]
     return None
 
 

@@ -13,7 +13,7 @@ from rldrill.problems.models import Dynamics, Lookahead, Transition, draw_letter
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open, unknown
 from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting, draw_targets
-from rldrill.problems.valued import draw_averaging, draw_paying, draw_values, tells_apart, worth
+from rldrill.problems.valued import discounted, draw_averaging, draw_paying, draw_values, tells_apart, worth
 
 TITLE = "Action values from state values"
 SOURCE = "Sutton & Barto 2018, section 3.5"
@@ -55,11 +55,11 @@ def draw(level: int, rng: Draws) -> Given:
             return draw(level, rng)  # a half would be guessed
         return Given(dynamics=Dynamics(transitions=tuple(opened)), values=_named(values, rows), gamma=left, find=True)
     if level == 2 and rng.chance(Fraction(1, 2)) and (worths := draw_averaging(rng, 2, (4, 5), values[state])[1]):
-        shape = Shape(states=4, actions=2, branches=2)
+        shape, ahead = Shape(states=4, actions=2, branches=2), discounted(values, gamma)
         rows = [
             row
             for action, number in zip(setting.actions, worths, strict=False)
-            for row in draw_paying(rng, setting, setting.states, (state, action), number, values, gamma, shape)
+            for row in draw_paying(rng, setting, setting.states, (state, action), number, ahead, shape)
         ]
         return Given(
             dynamics=Dynamics(transitions=tuple(rows)),
@@ -91,7 +91,8 @@ def _equal(rng: Draws, setting: Setting, state: str, values: dict[str, Fraction]
         if not tells_apart(rows, values, gamma):
             continue
         number = worth(Dynamics(transitions=tuple(rows)), (state, first), values, gamma)
-        rows += draw_paying(rng, setting, setting.states, (state, second), number, values, gamma, shape, barred=state)
+        ahead = discounted(values, gamma)
+        rows += draw_paying(rng, setting, setting.states, (state, second), number, ahead, shape, barred=state)
         net: dict[str, Fraction] = {}
         for row in rows:
             sign = 1 if row.action == first else -1

@@ -23,7 +23,7 @@ from rldrill.problems.models import (
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open, unknown
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting, draw_targets
-from rldrill.problems.valued import draw_averaging, draw_paying, draw_values, tells_apart
+from rldrill.problems.valued import discounted, draw_averaging, draw_paying, draw_values, tells_apart
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
@@ -92,10 +92,11 @@ def _to_find(rng: Draws) -> Given:
     values = draw_values(rng, setting.states, gamma)
     chances, worths = draw_averaging(rng, len(actions), (4,), values[state])
     worths = worths or [values[state] + number for number in range(len(actions))]
+    ahead = discounted(values, gamma)
     rows = [
         row
         for action, worth in zip(actions, worths, strict=True)
-        for row in draw_paying(rng, setting, setting.states, (state, action), worth, values, gamma, shape)
+        for row in draw_paying(rng, setting, setting.states, (state, action), worth, ahead, shape)
     ]
     policy: PolicyField = {state: dict(zip(actions, chances, strict=True))}
     left: Scalar = gamma

@@ -134,10 +134,10 @@ def _settles(mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int) ->
 
 def _looks_ahead(mdp: Model, values: dict[str, Fraction], gamma: Fraction) -> bool:
     """Whether neither rewards alone, nor next values alone, nor both without γ show which policy improvement gives."""
-    ahead = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs}
     at_once = {pair: worth(mdp, pair, {}, gamma) for pair in mdp.pairs}
-    later = {pair: ahead[pair] - at_once[pair] for pair in mdp.pairs}
-    together = {pair: at_once[pair] + later[pair] / gamma for pair in mdp.pairs}
+    later = {pair: _afterwards(mdp, pair, values) for pair in mdp.pairs}
+    ahead = {pair: at_once[pair] + gamma * later[pair] for pair in mdp.pairs}
+    together = {pair: at_once[pair] + later[pair] for pair in mdp.pairs}
     best, *others = (
         [max(actions, key=lambda action: found[state, action]) for state, actions in mdp.actions.items()]
         for found in (ahead, at_once, later, together)
@@ -168,11 +168,12 @@ def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
 
 def _needs_values(mdp: Model, pair: tuple[str, str], chosen: str, values: dict[str, Fraction]) -> bool:
     """Whether what follows the two actions is worth different numbers: else the rewards alone say which is better."""
-    after, own = (
-        sum(Fraction(row.probability) * values.get(row.next, 0) for row in mdp.outcomes[each])
-        for each in (pair, (pair[0], chosen))
-    )
-    return after != own
+    return _afterwards(mdp, pair, values) != _afterwards(mdp, (pair[0], chosen), values)
+
+
+def _afterwards(mdp: Model, pair: tuple[str, str], values: dict[str, Fraction]) -> Fraction:
+    """What the state after an action is worth on average."""
+    return sum((Fraction(row.probability) * values.get(row.next, 0) for row in mdp.outcomes[pair]), Fraction(0))
 
 
 def question(given: Rounds | Threshold) -> Question:
