@@ -300,7 +300,8 @@ class _Parser:
             power = self._text(sign, before)
             raise self._error(f"{quoted(power)} may be ^({power[1:]}) or ({power[:-1]})%; write brackets.", sign)
         if before.text == "1" and line and not line[0].spaced and not line[1].spaced:
-            readings = f"^(1/{line[1].text}) or (…^1)/{line[1].text}"
+            power, below = self._text(sign, before), line[1].text
+            readings = f"^({power[1:]}/{below}) or (…{power})/{below}"
             raise self._error(f"{quoted(self._text(sign, line[1]))} may be {readings}; write brackets.", sign)
         self._depth -= 1
         return self._operation("^", sign, base, exponent)

@@ -106,6 +106,21 @@ def check_weights(name: str, matrix: Rows, *, positive: bool) -> None:
         raise ValueError(f"{name} must be positive {'' if positive else 'semi'}definite; make its diagonal larger")
 
 
+def check_sign(name: str, matrix: NumberRows, *, costs: bool) -> None:
+    """Refuse the matrix of a cost where that of a value is given, and the other way round.
+
+    Raises:
+        ValueError: it has the other sign.
+    """
+    other = [[-entry if costs else entry for entry in line] for line in matrix]
+    if any(map(any, matrix)) and _definite(other, positive=False):
+        what, sign = ("a cost", "positive") if costs else ("a value", "negative")
+        theirs = "'value'" if costs else "'cost-to-go' or 'xuKP'"
+        raise ValueError(
+            f"{name} is the matrix of {what} here, which is {sign}; give −{name}, or convention = {theirs}"
+        )
+
+
 def is_positive(matrix: Sequence[Sequence[Fraction]]) -> bool:
     """Whether a symmetric matrix is positive definite."""
     return _definite([list(line) for line in matrix], positive=True)

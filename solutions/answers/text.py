@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
+from itertools import chain
 from typing import TypeVar
 
 from rldrill.problems.spelling import Source, Unreadable, quoted, spelled
@@ -115,13 +116,15 @@ def read_vector(
         Unreadable: an entry is not a number, or is given twice, or there are too few or too many; or names that
             are not known stand in another order than the alphabet's, so that they may mean another one.
     """
+    if length == 1:
+        return (read_number(text.rstrip(" ,;"), parameters, longest),)
     source = clean(text, longest)
 
     def vector(member: Source) -> tuple[Reading | None, ...]:
         return _vector(member, length, parameters, names, called)
 
     body = _right_side(source)
-    if length != 1 and body.has("=≈") and len(_pieces(body, length, parameters, called)) == 1:
+    if body.has("=≈") and len(_pieces(body, length, parameters, called)) == 1:
         return _forms(source, vector, _given)  # (1/4, 2) = (0.25, 2)
     return vector(source)
 
@@ -146,8 +149,8 @@ def _vector(
     readings = dict(zip(given, _numbers([entries[i] for i in given], parameters, place, most=most), strict=True))
     if length is not None and len(entries) != length:
         shown = listed(re.sub('[{}"]', "", name) for name in names)  # as one may type them
-        needed = f"{length} {_are(length)} needed{f': {shown}' if length > 1 and names else ''}."
-        raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), length)}")
+        needed = f"{length} are needed{f': {shown}' if names else ''}."
+        raise source.unreadable(f"{_count(len(entries))} read, {needed}{_comma(source, len(entries), length)}")
     return tuple(readings.get(index) for index in range(len(entries)))
 
 
@@ -173,8 +176,10 @@ def _pieces(source: Source, length: int | None, parameters: Sequence[str], calle
 
 def read_matrix(
     text: str, shape: tuple[int, int] | None = None, parameters: Sequence[str] = (), longest: int = LONGEST
-) -> tuple[tuple[Reading, ...], ...]:
+) -> tuple[tuple[Reading | None, ...], ...]:
     """Read a matrix by its rows: ``[[1, 2], [3, 4]]`` or ``[1 2; 3 4]`` or one row on each line.
+
+    None stands for an entry that is left out: ``[1, ?; 3, 4]``.
 
     Args:
         text: what was typed.
@@ -188,13 +193,13 @@ def read_matrix(
     """
     source = clean(text, longest)
     return _forms(
-        source, lambda member: _matrix(member, shape, parameters), lambda rows: [entry for row in rows for entry in row]
+        source, lambda member: _matrix(member, shape, parameters), lambda rows: _given(chain.from_iterable(rows))
     )
 
 
 def _matrix(
     source: Source, shape: tuple[int, int] | None, parameters: Sequence[str]
-) -> tuple[tuple[Reading, ...], ...]:
+) -> tuple[tuple[Reading | None, ...], ...]:
     body = untransposed(source)
     transposed = body is not source
     factor, body = _scaled(body, parameters)
@@ -204,12 +209,18 @@ def _matrix(
         rows = plain_rows(body, spaced=shape not in (None, (1, 1)))
     if len(rows) > (most := max(_ENTRIES, *shape or (1,))):
         raise source.unreadable(f"More than {most} rows were typed; leave out those that were not asked for.")
-    rows = [_times(factor, row) for row in rows] if factor else rows
     arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
-    matrix = [
-        _numbers(row, parameters, None if alone else f"row {i}, entry {{}}".format, arithmetic, most)
-        for i, row in enumerate(rows, 1)
-    ]
+    nothing = all(left_out(entry) for row in rows for entry in row)
+
+    def read_row(number: int, row: list[Source]) -> tuple[Reading | None, ...]:
+        given = [i for i, entry in enumerate(row) if nothing or not left_out(entry)]
+        entries = [row[i] for i in given]
+        place = None if alone else lambda i: f"row {number}, entry {given[i - 1] + 1}"
+        readings = _numbers(_times(factor, entries) if factor else entries, parameters, place, arithmetic, most)
+        found = dict(zip(given, readings, strict=True))
+        return tuple(found.get(i) for i in range(len(row)))
+
+    matrix = [read_row(number, row) for number, row in enumerate(rows, 1)]
     for i, row in enumerate(matrix, 1):
         if len(row) != len(matrix[0]):
             raise source.unreadable(f"Row {i} has length {len(row)}, row 1 has {len(matrix[0])}; make them equal.")
@@ -218,8 +229,7 @@ def _matrix(
     read = (len(matrix), len(matrix[0]))
     if shape is not None and read != shape:
         if not (plain and 1 in read and read == shape[::-1]):
-            needed = "one number" if shape == (1, 1) else f"{shape[0]}×{shape[1]}"
-            sizes = f"A {read[0]}×{read[1]} matrix was read, {needed} is needed."
+            sizes = f"A {read[0]}×{read[1]} matrix was read, {_wanted(*shape)}."
             raise source.unreadable(sizes + _comma(source, read[0] * read[1], shape[0] * shape[1]))
         matrix = list(zip(*matrix, strict=True))
     return tuple(matrix)
@@ -404,7 +414,8 @@ def _partly(typed: str, spellings: Sequence[tuple[str, str]]) -> list[str]:
         return []
     told = [(spelled(spelling).casefold(), letter) for spelling, letter in spellings]
     words = re.compile(rf"(?<!\w){re.escape(typed)}(?!\w)")
-    having = [letter for spelling, letter in told if words.search(spelling)]
+    found = words.search if any(map(str.isalpha, typed)) else words.match  # the 1 in "with n > 1" tells nothing
+    having = [letter for spelling, letter in told if found(spelling)]
     return having if len(having) == 1 else [letter for spelling, letter in told if spelling.startswith(typed)] or having
 
 
@@ -580,6 +591,14 @@ def _numbers(
 
 def _count(count: int, noun: str = "number") -> str:
     return f"1 {noun} was" if count == 1 else f"{count} {noun}s were"
+
+
+def _wanted(rows: int, columns: int) -> str:
+    """Which shape is needed, and how that is typed."""
+    if rows == columns == 1:
+        return "one number is needed"
+    line = f"{columns} numbers" if columns > 1 else "1 number"
+    return f"{rows}×{columns} is needed: {f'{rows} rows of {line}, parted by semicolons' if rows > 1 else line}"
 
 
 def _are(count: int) -> str:
