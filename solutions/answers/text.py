@@ -7,6 +7,7 @@ from functools import partial
 from itertools import chain
 from typing import TypeVar
 
+from rldrill.problems.expressions import GREEK
 from rldrill.problems.spelling import Source, Unreadable, quoted, spelled
 from rldrill.solutions.answers.arithmetic import Arithmetic
 from rldrill.solutions.answers.keyed import Asked, by_name, in_order
@@ -60,6 +61,8 @@ _ONLY_NAME = re.compile(_NAME)
 _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)|∂[^\s=:,;]*\s*=(?!=)")
 _YES = frozenset({"yes", "y", "true", "t", "ja", "j"})
 _NO = frozenset({"no", "n", "false", "f", "nein"})
+#: What parts yes or no from the reason for it.
+_WHY = re.compile(r"\s*[,;:.(–—]\s*|\s+(?:-|because|since|as)\s+")
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
@@ -71,6 +74,7 @@ _SAID_FIRST = re.compile(
 )
 _ENTRIES = 200
 _FORMS = 30
+_NUMBER_FIRST = re.compile(r"[-+]?[0-9][0-9./]*\s+([A-Za-z]{2,})(?![\w({\[])")
 
 
 def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGEST) -> Reading:
@@ -426,9 +430,9 @@ def read_yes_no(text: str) -> bool:
         Unreadable: it is neither.
     """
     source = clean(text)
-    word = unquoted(source.text).casefold().rstrip(".!")
-    if word in _YES or word in _NO:
-        return word in _YES
+    said, *why = _WHY.split(unquoted(source.text).casefold().rstrip(".!"), maxsplit=1)
+    if said in _YES | _NO and not (_YES | _NO) - {said} & set(re.findall(r"\w{2,}", "".join(why))):
+        return said in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
 
 
@@ -558,7 +562,7 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
         try:
             number(member, parameters, probe)
         except Unreadable:
-            if not member.text or re.search(r"[^\W\d_]", member.text):
+            if not member.text or (re.search(r"[^\W\d_]", member.text) and not _goes_on(member.text)):
                 begun = stop + 1  # V(cool), max{1; 2}
             break
     try:
@@ -567,6 +571,12 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
         if begun or not signs or not _ONLY_NAME.fullmatch(source.text[: signs[0]].strip()):
             raise
         return number(source.part(signs[0] + 1, len(source.text)), parameters, arithmetic)  # e = 2 may name the trace
+
+
+def _goes_on(text: str) -> bool:
+    """Whether a number stands first and words go on from it: ``2.5 because γ``, before an equal sign."""
+    found = _NUMBER_FIRST.match(text)
+    return found is not None and found[1].lower() not in GREEK
 
 
 def _numbers(

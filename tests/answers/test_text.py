@@ -228,7 +228,7 @@ REFUSED = {
     "foo": "'foo' is not something this answer may contain",
     "beta": "it may contain gamma.",
     "α": "it may contain gamma.",
-    "__import__('os')": "'_' is not understood here",
+    "__import__('os')": "'os' is not something this answer may contain",
     "3,5": "3,5 has a decimal comma; write 3.5.",
     "-0,500": "0,500 has a decimal comma; write 0.500.",
     "exp(0,5)": "0,5 has a decimal comma; write 0.5.",
@@ -610,6 +610,12 @@ def test_both_of_two_actions_are_a_tie(text: str) -> None:
     assert read_words("both, slow", ["cool", "warm"], named) == {"cool": ("both",), "warm": ("slow",)}
 
 
+@pytest.mark.parametrize("text", ["any, slow", "cool: all, warm: slow"])
+def test_all_actions_are_a_tie(text: str) -> None:
+    actions = {"cool": ("slow", "fast", "stop"), "warm": ("slow", "fast")}
+    assert read_words(text, ["cool", "warm"], actions) == {"cool": ("slow", "fast", "stop"), "warm": ("slow",)}
+
+
 @pytest.mark.parametrize("text", ["cool: fast", "cool: fast, warm: ", "fast, -"])
 def test_what_is_left_out_of_a_policy_is_not_read(text: str) -> None:
     assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": ("fast",)}
@@ -672,6 +678,19 @@ def test_yes_and_no():
     assert all(map(read_yes_no, ["yes", "Y", "True", "ja.", " YES! "]))
     assert not any(map(read_yes_no, ["no", "N", "false", "Nein"]))
     assert "'maybe' is neither yes nor no" in refusal(read_yes_no, "maybe").message
+
+
+@pytest.mark.parametrize(
+    "why", [", det J = 1", " (det = 1)", ": it is regular.", " because det J = 1", " – since 1 ≠ 0"]
+)
+def test_yes_or_no_may_have_its_reason(why: str) -> None:
+    assert read_yes_no(f"yes{why}")
+    assert not read_yes_no(f"No{why}")
+
+
+@pytest.mark.parametrize("text", ["yes, no", "no, yes it is", "yes (or no)", "yes and no", "no idea", "y/n", "not, as"])
+def test_what_is_no_plain_yes_or_no(text: str) -> None:
+    assert "is neither yes nor no; type one of them." in refusal(read_yes_no, text).message
 
 
 READERS = [
