@@ -50,9 +50,18 @@ def read_angle(value: object) -> Angle:
         raise ValueError(f"{called(value)} is not an angle; write it as 3/4, 0.75, pi/6 or 30°") from None
 
 
-def _turned(angle: Angle) -> Angle:
+def turned(angle: Angle, place: str = "") -> Angle:
+    """The angle of what turns: who gives more than a full turn as a plain number means degrees.
+
+    Args:
+        angle: the angle.
+        place: how the complaint begins.
+
+    Raises:
+        ValueError: it is more than a full turn.
+    """
     if not angle.of_pi and abs(angle.number) > 2 * pi:
-        raise ValueError(f"{angle} radians are more than a full turn; write degrees as '{angle}°'")
+        raise ValueError(f"{place}{angle} radians are more than a full turn; write degrees as '{angle}°'")
     return angle
 
 
@@ -80,5 +89,5 @@ AngleField = Annotated[
     PlainSerializer(str, return_type=str),
     WithJsonSchema({"type": ["string", "number"], "title": "an angle, a number or a multiple of pi such as 'pi/6'"}),
 ]
-#: The angle of a joint or a link: who gives more than a full turn as a plain number means degrees.
-JointField = Annotated[AngleField, AfterValidator(_turned)]
+#: The angle of a joint or a link.
+JointField = Annotated[AngleField, AfterValidator(lambda angle: turned(angle))]

@@ -3,7 +3,10 @@
 import pytest
 from pydantic import ValidationError
 
+import rldrill
 from rldrill.problems.angles import Angle, AngleField, JointField, degrees, read_angle
+from rldrill.problems.errors import FileError
+from rldrill.problems.expressions import turning
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
 
@@ -59,3 +62,23 @@ def test_angles_of_a_joint(typed: object) -> None:
 
 def test_other_coordinates_may_be_large() -> None:
     assert Arm.model_validate({"x": 10}).x == Angle(Fraction(10))
+
+
+@pytest.mark.parametrize(
+    ("rate", "angle"), [("-g*sin(θ)", "θ"), ("-g sin(θ)/l", "θ"), ("cos(θ + φ)", "φ"), ("u*tan(θ)^2", "θ")]
+)
+def test_what_sines_are_taken_of_is_an_angle(rate: str, angle: str) -> None:
+    assert angle in turning(rate)
+
+
+@pytest.mark.parametrize("rate", ["sin(x/10)", "θ + sin(2)", "sin(3 x)", "u*x"])
+def test_what_is_scaled_first_is_none(rate: str) -> None:
+    assert turning(rate) == ()
+
+
+def test_degrees_are_not_taken_for_radians_of_a_pendulum() -> None:
+    given = {"dynamics": {"θ": "ω", "ω": "u - 10*sin(θ)"}, "action": {"u": 20}, "state": {"θ": 180, "ω": 30}}
+    with pytest.raises(FileError, match="state: of θ, 180 radians are more than a full turn; write degrees as '180°'"):
+        rldrill.read({"family": "linearise", "given": given})
+    given["state"] = {"θ": "180°", "ω": 30}  # −10 cos π = 10
+    assert rldrill.read({"family": "linearise", "given": given}).answers()["a"] == ((0, 1), (10, 0))

@@ -57,6 +57,18 @@ BROUGHT: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
         {"a": {"sick": Fraction(1, 3), "healthy": Fraction(2, 3)}},
     ),
     "a sensor by hypothesis": ("bayes-rule", SENSOR, {"a": {"water": Fraction(3, 19), "rock": Fraction(16, 19)}}),
+    # B stays there: 2/(1 − 1/2) = 4; A leads to B for sure: 1 + 4/2 = 3
+    "what is certain is written as a name": (
+        "feature-expectations-policy",
+        {
+            "start": "A",
+            "policy": {"A": "go", "B": "go"},
+            "motion": {"go": {"A": "B", "B": "B"}},
+            "features": {"A": [1], "B": [2]},
+            "gamma": "1/2",
+        },
+        {"a": {"A": Fraction(3), "B": Fraction(4)}, "b": Fraction(3)},
+    ),
     "the only return is sought": ("sample-average", SOUGHT, {"a": Fraction(-1)}),
     "the first return is sought": ("sample-average", SOUGHT_FIRST, {"a": Fraction(2)}),
     "a name in the dynamics": (
