@@ -1,16 +1,17 @@
-"""Angles as problem files have them, in radians: ``pi/6``, ``-2*pi/3``, or a plain number."""
+"""Angles as problem files have them, in radians: ``pi/6``, ``-2*pi/3``, or a plain number; or in degrees, ``30°``."""
 
 import re
 from math import pi
 from typing import Annotated
 
 from msgspec import Struct
-from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, PlainSerializer, WithJsonSchema
 
 from rldrill.problems.exact import called, read_fraction
 from rldrill.problems.fractions import Fraction
 
 _PI = re.compile(r"([+-]?)\s*(\d{0,6})\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d{1,6}))?")
+_DEGREES = re.compile(r"(.*\S)\s*(?:°|deg(?:rees?)?)")
 
 
 class Angle(Struct, frozen=True, order=True):
@@ -41,9 +42,27 @@ def read_angle(value: object) -> Angle:
         factor = Fraction(int(times or 1), int(below or 1))
         return Angle(-factor if sign == "-" else factor, of_pi=bool(factor))
     try:
+        if isinstance(value, str) and (turned := _DEGREES.fullmatch(value.strip())):
+            factor = read_fraction(turned[1]) / 180
+            return Angle(factor, of_pi=bool(factor))
         return Angle(read_fraction(value))
     except ValueError:
-        raise ValueError(f"{called(value)} is not a number; write it as 3/4, 0.75 or pi/6") from None
+        raise ValueError(f"{called(value)} is not an angle; write it as 3/4, 0.75, pi/6 or 30°") from None
+
+
+def turned(angle: Angle, place: str = "") -> Angle:
+    """The angle of what turns: who gives more than a full turn as a plain number means degrees.
+
+    Args:
+        angle: the angle.
+        place: how the complaint begins.
+
+    Raises:
+        ValueError: it is more than a full turn.
+    """
+    if not angle.of_pi and abs(angle.number) > 2 * pi:
+        raise ValueError(f"{place}{angle} radians are more than a full turn; write degrees as '{angle}°'")
+    return angle
 
 
 def degrees(angle: Angle) -> float:
@@ -70,3 +89,5 @@ AngleField = Annotated[
     PlainSerializer(str, return_type=str),
     WithJsonSchema({"type": ["string", "number"], "title": "an angle, a number or a multiple of pi such as 'pi/6'"}),
 ]
+#: The angle of a joint or a link.
+JointField = Annotated[AngleField, AfterValidator(lambda angle: turned(angle))]

@@ -5,7 +5,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, text
+from rldrill.problems.angles import Angle, JointField, degrees, read_angle, text
 from rldrill.problems.document import Beside, Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Open, Parameter, shown
@@ -24,7 +24,7 @@ class PlanarArm(Givens):
     lengths: tuple[Open, ...] = Field(
         min_length=1, max_length=6, description="The lengths of the links, from the base outwards."
     )
-    angles: tuple[AngleField, ...] = Field(
+    angles: tuple[JointField, ...] = Field(
         max_length=6,
         description="The angle of every joint in radians, counter-clockwise, each relative to the link before.",
     )

@@ -41,10 +41,17 @@ def _turned(table: Likelihood) -> dict[str, dict[str, Scalar]]:
     return {column: {name: row[column] for name, row in table.items() if column in row} for column in columns}
 
 
+def _fits(table: Likelihood) -> bool:
+    """Whether the rows of a table may be the probabilities of all readings, each under one hypothesis."""
+    numbers = ([chance for chance in row.values() if isinstance(chance, Fraction)] for row in table.values())
+    return all(sum(row, Fraction(0)) <= 1 for row in numbers)
+
+
 def _by_reading(likelihood: Likelihood, info: ValidationInfo) -> Likelihood:
     """A likelihood by reading, whichever way it is written; what a program rounded is read as it is meant."""
     known = set(info.data.get("prior") or info.data.get("belief") or ())
-    of_hypotheses = set(likelihood) == known and all(set(row) != known for row in likelihood.values())
+    turned = all(set(row) != known for row in likelihood.values()) or (_fits(likelihood) > _fits(_turned(likelihood)))
+    of_hypotheses = set(likelihood) == known and turned
     rows = likelihood if of_hypotheses else _turned(likelihood)
     meant = {hypothesis: distribution(row, note_of(info)) for hypothesis, row in rows.items()}
     if of_hypotheses:

@@ -96,6 +96,21 @@ def letters(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(letter(node.text) for node in nodes(parsed(text)) if isinstance(node, Name)))
 
 
+@lru_cache(maxsize=1024)
+def turning(text: str) -> tuple[str, ...]:
+    """The letters that are angles: those of which sines and cosines are taken as they stand, or in sums."""
+    return tuple(
+        dict.fromkeys(
+            letter(inner.text)
+            for node in nodes(parsed(text))
+            if isinstance(node, Operation) and node.sign in ("sin", "cos", "tan")
+            and all(isinstance(part, Name) or (isinstance(part, Operation) and part.sign in "+-")
+                    for part in nodes(node.parts[0]))
+            for inner in nodes(node.parts[0]) if isinstance(inner, Name)
+        )
+    )  # fmt: skip
+
+
 def worked_out(
     text: str,
     values: Mapping[str, Any],

@@ -29,14 +29,22 @@ _TOKEN = re.compile(
     r"|(?P<raised>[⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)"
     # a Greek letter is a name of its own, perhaps with an index: αγ is α times γ
     rf"|(?P<name>{_TAKEN}|{_MODULES}(?:[A-Za-z][A-Za-z0-9]*|[^\W\d_])(?:_\w+)?|∞)"
-    r"|(?P<sign>\*\*|[-+*/^(),;%√∛∜{}[\]])"
+    r"|(?P<sign>\*\*|[-+*/^(),;%°√∛∜{}[\]])"
 )
 _EXPONENT = re.compile(r"[0-9]{1,2}\.?")  # as it stands where its superscript was lost
 _ROOTS = {"∛": 3, "∜": 4}
 _BRACKETS = {"(": ")", "{": "}", "[": "]"}
-_ENDS = ("number", "mixed", "repeating", "name", "raised", ")", "}", "]", "%")  # of what may stand alone
+_ENDS = ("number", "mixed", "repeating", "name", "raised", ")", "}", "]", "%", "°")  # of what may stand alone
 _LOOSE = {"(", "{", "[", "+", "-", "*", ",", ";", ")", "}", "]", "end"}  # what may stand beside a mixed number
 _NUMBERS = ("number", "mixed", "repeating")
+_OF_ANGLES = ("sin", "cos", "tan")
+#: Signs that are typed as words, or raised: minus 1/2, 50 percent, 45 deg, 45^∘
+_SPOKEN = re.compile(
+    r"(?P<minus>(?<!\w)(?:minus|negative)(?=\s))|(?<=[\w)}\s])(?P<percent>per\s?cent\b)"
+    r"|(?<=[0-9)}\s])(?P<degrees>deg(?:rees?)?\b|\^\s*\{?\s*[°∘]\s*\}?)",
+    re.IGNORECASE,
+)
+_SIGNS = {"minus": "-", "percent": "%", "degrees": "°"}
 
 
 class _Token(NamedTuple):
@@ -55,7 +63,7 @@ def read(source: Source) -> Node:
     """
     if not source.text:
         raise source.unreadable("Nothing was typed.")
-    return _Parser(source).all()
+    return _Parser(source.replaced(_SPOKEN, lambda match: _SIGNS[match.lastgroup or ""])).all()
 
 
 def refuse_comma(source: Source, index: int) -> None:
@@ -113,7 +121,7 @@ class _Parser:
     def __init__(self, source: Source) -> None:
         self._source = source
         self._tokens = list(_tokens(source))
-        self._next = self._depth = self._operations = 0
+        self._next = self._depth = self._operations = self._angles = 0
 
     def all(self) -> Node:
         self._check_alone()
@@ -226,7 +234,7 @@ class _Parser:
             raise self._error(f"{pair} are two numbers with nothing between; write a sign or a comma there.")
         if token.text in ("e", "E") and before.kind in _NUMBERS:
             self._check_exponent()
-        if token.kind in _NUMBERS or before.kind == "%":
+        if token.kind in _NUMBERS or before.kind in ("%", "°"):
             raise self._error(f"{quoted(token.text)} follows without a sign; write * before it if it is a factor.")
         if divided:
             what = quoted(f"/{before.text}{token.text}")
@@ -300,14 +308,15 @@ class _Parser:
             power = self._text(sign, before)
             raise self._error(f"{quoted(power)} may be ^({power[1:]}) or ({power[:-1]})%; write brackets.", sign)
         if before.text == "1" and line and not line[0].spaced and not line[1].spaced:
-            readings = f"^(1/{line[1].text}) or (…^1)/{line[1].text}"
+            power, below = self._text(sign, before), line[1].text
+            readings = f"^({power[1:]}/{below}) or (…{power})/{below}"
             raise self._error(f"{quoted(self._text(sign, line[1]))} may be {readings}; write brackets.", sign)
         self._depth -= 1
         return self._operation("^", sign, base, exponent)
 
     def _raised(self) -> Node:
         """An atom with what is written behind it: percent signs and small raised numbers."""
-        node = self._atom()
+        node = self._degrees(self._atom())
         while sign := self._take("%", "raised"):
             if sign.kind == "%":
                 node = self._operation("%", sign, node)
@@ -320,6 +329,15 @@ class _Parser:
                 exponent = self._operation("-", sign, exponent)
             node = self._operation("^", sign, node, exponent)
         return node
+
+    def _degrees(self, node: Node) -> Node:
+        """An atom, perhaps in degrees: where an angle is taken, it is clear what they are."""
+        if not (sign := self._take("°")):
+            return node
+        if not self._angles:
+            raise self._error("'°' is a unit; write the number alone, in the unit that is asked for.", sign)
+        turned = Operation("/", (Name("π", sign.at), Numeral(Fraction(180), "180", sign.at)), sign.at)
+        return self._operation("*", sign, node, turned)
 
     def _atom(self) -> Node:
         if token := self._take("mixed"):
@@ -368,9 +386,8 @@ class _Parser:
 
     def _mixed(self, token: _Token) -> Node:
         """A whole number and a fraction after it: 1 3/4, 1¾."""
-        # Before the first sign stands the last one, the end, as it were.
-        around = {self._tokens[self._next - 2].kind, self._token.kind}
-        if not around <= _LOOSE:
+        # Before the first sign stands the last one, the end, as it were; all of 33 1/3 % are percent.
+        if self._tokens[self._next - 2].kind not in _LOOSE or self._token.kind not in {*_LOOSE, "%", "°"}:
             message = "A whole number and a fraction may be read in two ways here; put brackets around them."
             raise self._error(message, token)
         above, below_one = (self._value(token, digits) for digits in _digits(token).split(maxsplit=1))
@@ -380,7 +397,10 @@ class _Parser:
         return Numeral(above + below_one, str(above + below_one), token.at)
 
     def _call(self, name: str, token: _Token) -> Node:
-        return self._operation(name, token, *self._arguments(name, FUNCTIONS[name]))
+        self._angles += name in _OF_ANGLES
+        node = self._operation(name, token, *self._arguments(name, FUNCTIONS[name]))
+        self._angles -= name in _OF_ANGLES
+        return node
 
     def _arguments(self, name: str, most: int) -> list[Node]:
         """What a function is taken of."""
@@ -402,7 +422,7 @@ class _Parser:
         """What a function is taken of where no bracket follows it: √2, ln 2."""
         if self._token.kind not in ("number", "name", "√"):
             raise self._error(f"Put what {name} is taken of in brackets: {name}(…).")
-        argument = self._atom()
+        argument = self._degrees(self._atom())
         square = isinstance(argument, Numeral) and argument.value == isqrt(int(argument.value)) ** 2  # √9/16
         line = () if name == "sqrt" and not square else ("/",)
         unclear = ("^", "raised", "%", "name", "(", "{", "√", *_ROOTS, *_NUMBERS, *line)
@@ -512,7 +532,7 @@ def _foreign(text: str, index: int) -> str:
         return f"The bracket {quoted(character)} is not closed; close it."
     if character in "[]{}⟨⟩":
         return f"{quoted(character)} is not read inside a number; use round brackets."
-    if unicodedata.category(character) == "Sc" or character in "°′″":
+    if unicodedata.category(character) == "Sc" or character in "′″":
         return f"{quoted(character)} is a unit; write the number alone, in the unit that is asked for."
     if character == "\\":
         command = re.match(r"\\[A-Za-z]*", text[index:])

@@ -1,5 +1,6 @@
 """Grid worlds drawn as text, as models: one character for every cell."""
 
+import re
 from collections.abc import Mapping
 from typing import Any, Literal
 
@@ -16,6 +17,7 @@ MOVES = {"up": (-1, 0), "right": (0, 1), "down": (1, 0), "left": (0, -1)}
 #: The one action of an end that must be left, and the state that it leads to.
 EXIT, OVER = "exit", "over"
 _LARGEST = 1000
+_BAR, _GAP = re.compile(r"\s*\|\s*"), re.compile(r"(?<=\S)\s*(?=\S)")
 
 Cell = tuple[int, int]
 
@@ -113,7 +115,14 @@ class Grid(BaseModel):
         return tuple(name for name in self.rewards if name not in self.returns)
 
     def _cells(self) -> dict[Cell, str]:
-        lines = [line.strip() for line in self.grid.strip().splitlines()]
+        drawn = [_BAR.sub(" ", line).strip() for line in self.grid.strip().splitlines()]
+        gaps = {gap for line in drawn for gap in _GAP.findall(line)}
+        if len(gaps) > 1 or max(map(len, gaps), default=0) > 1:
+            raise ValueError(
+                "the cells of the grid are parted unevenly; draw each as one sign, free ones as '.', all with or all "
+                "without a space between"
+            )
+        lines = ["".join(line.split()) for line in drawn]
         if len({len(line) for line in lines}) != 1:
             raise ValueError("the rows of the grid differ in length; write walls as '#'")
         cells = {(row, column): sign for row, line in enumerate(lines) for column, sign in enumerate(line)}

@@ -9,7 +9,17 @@ from rldrill.problems.spelling import Source, quoted, respelled
 _DEPTH = 40
 _QUOTIENTS = frozenset({"frac", "dfrac", "tfrac", "cfrac", "nicefrac", "sfrac"})
 _SIGNS = dict.fromkeys(("cdot", "times", "ast", "bullet"), "*") | dict.fromkeys(("approx", "simeq", "sim"), "≈")
-_SIGNS |= {"div": "/", "infty": "∞", "to": "→", "rightarrow": "→", "mapsto": "↦", "mid": "|", "prime": "'"}
+_SIGNS |= {
+    "div": "/",
+    "infty": "∞",
+    "to": "→",
+    "rightarrow": "→",
+    "mapsto": "↦",
+    "mid": "|",
+    "prime": "'",
+    "circ": "∘",
+    "degree": "°",
+}
 _SIGNS |= dict.fromkeys(("quad", "qquad", ",", ";", ":", "!", " ", "displaystyle", "textstyle"), " ")
 _SIGNS |= {sign: sign for sign in "%{}$#_"} | dict.fromkeys("()[]", "")
 _SIZES = frozenset({"left", "right"} | {size + side for size in ("big", "Big", "bigg", "Bigg") for side in ("", *"lr")})

@@ -1,5 +1,6 @@
 """Matrices as problems give them: lists of rows, a plain number where they are 1×1."""
 
+import re
 from collections.abc import Sequence
 from itertools import combinations
 from typing import Annotated, Any
@@ -12,8 +13,26 @@ from rldrill.problems.mathematics import Math, Tabular, mathematics, number
 
 Rows = tuple[tuple[Scalar, ...], ...]
 
+#: What stands around the entries of a matrix that is written as a text, and what stands between them.
+_WRITTEN = re.compile(
+    r"\\(?:begin|end)\s*\{[bpv]?(?:small)?matrix\}|\\\\|&|^\s*(?:(?:np|numpy|jnp)\.)?(?:array|matrix)\(|\)\s*$"
+)
+_PLAIN = {"&": ",", "\\\\": ";"}
+_ROW = re.compile(r"\[([^\[\]]+)\]")
+
+
+def _typed_rows(text: str) -> list[list[str]] | None:
+    """The rows of a matrix as MATLAB, numpy or LaTeX write it; None for what is one number."""
+    bare = _WRITTEN.sub(lambda match: _PLAIN.get(match[0].strip(), ""), text)
+    rows = _ROW.findall(bare) if "[[" in bare.replace(" ", "") else re.split("[;\n]", bare.strip().strip("[]"))
+    if len(rows) == 1 and "[" not in text and "&" not in text:
+        return None
+    return [re.split(r"\s*,\s*" if "," in row else r"\s+", row.strip().rstrip(",")) for row in rows if row.strip()]
+
 
 def _rows(value: Any) -> Any:
+    if isinstance(value, str):
+        value = _typed_rows(value) or value
     if not isinstance(value, list | tuple):
         return ((value,),)
     if not all(isinstance(line, list | tuple) for line in value):
@@ -23,6 +42,8 @@ def _rows(value: Any) -> Any:
 
 def _by_time(value: Any) -> Any:
     """One matrix for all times, or a list of matrices, one for every time; 1×1 ones may be plain numbers."""
+    if isinstance(value, str):
+        value = _typed_rows(value) or value
     if not isinstance(value, list | tuple):
         return (value,)
     rows_of_one = all(isinstance(line, list | tuple) and not any(map(_is_row, line)) for line in value)
@@ -104,6 +125,21 @@ def check_weights(name: str, matrix: Rows, *, positive: bool) -> None:
         return
     if not _definite(rows, positive=positive):
         raise ValueError(f"{name} must be positive {'' if positive else 'semi'}definite; make its diagonal larger")
+
+
+def check_sign(name: str, matrix: NumberRows, *, costs: bool) -> None:
+    """Refuse the matrix of a cost where that of a value is given, and the other way round.
+
+    Raises:
+        ValueError: it has the other sign.
+    """
+    other = [[-entry if costs else entry for entry in line] for line in matrix]
+    if any(map(any, matrix)) and _definite(other, positive=False):
+        what, sign = ("a cost", "positive") if costs else ("a value", "negative")
+        theirs = "'value'" if costs else "'cost-to-go' or 'xuKP'"
+        raise ValueError(
+            f"{name} is the matrix of {what} here, which is {sign}; give −{name}, or convention = {theirs}"
+        )
 
 
 def is_positive(matrix: Sequence[Sequence[Fraction]]) -> bool:

@@ -287,16 +287,19 @@ def _meant(chances: dict[str, Chance], info: ValidationInfo) -> dict[str, Chance
     return distribution(chances, note_of(info))
 
 
+def _certain(value: object) -> object:
+    """Let what is certain be written as its name alone."""
+    return {value: 1} if isinstance(value, str | int) and not isinstance(value, bool) else value
+
+
 #: Probabilities by name that sum to 1; what a program rounded is read as it is meant.
-DistributionField = Annotated[Hypotheses[Probability], AfterValidator(_meant)]
-OpenDistributionField = Annotated[Hypotheses[OpenProbability], AfterValidator(_meant)]
+DistributionField = Annotated[Hypotheses[Probability], BeforeValidator(_certain), AfterValidator(_meant)]
+OpenDistributionField = Annotated[Hypotheses[OpenProbability], BeforeValidator(_certain), AfterValidator(_meant)]
 
 
 def read_policy(value: object, info: ValidationInfo) -> object:
     """Let a deterministic policy be written ``{cool = "fast"}``, and the equiprobable one ``uniform``."""
-    if isinstance(value, dict):
-        return {state: {choice: 1} if isinstance(choice, str | int) else choice for state, choice in value.items()}
-    if value not in UNIFORM:
+    if isinstance(value, dict) or value not in UNIFORM:
         return value
     known = next((actions for field in info.data.values() if (actions := _choices(field))), None)
     return value if known is None else _uniform(known)

@@ -12,13 +12,13 @@ from msgspec import Struct, field
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
 from rldrill.problems import mathematics as maths
-from rldrill.problems.angles import Angle, AngleField, degrees, read_angle
+from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, turned
 from rldrill.problems.angles import text as angle_text
 from rldrill.problems.document import Beside, Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.exact import shown as exact_shown
-from rldrill.problems.expressions import Expression, letter, letters, worked_out, written, written_letter
+from rldrill.problems.expressions import Expression, letter, letters, turning, worked_out, written, written_letter
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import Math, mathematics, row, variable
@@ -99,6 +99,10 @@ class System(Givens):
                 raise ValueError(f"the expression of {name!r} holds {unknown[0]!r}, which has no value; give it one")
             if name in self.where:
                 known.add(name)
+        angles = {name for text in (*self.where.values(), *self.dynamics.values()) for name in turning(text)}
+        for name, value in self.state.items():
+            if name in angles:
+                turned(value, f"state: of {name}, ")
         if self.held and self.step is None:
             raise ValueError("step is missing: for how long the zero-order hold keeps the action; add it")
         if self.story.count("$") % 2:

@@ -1,8 +1,9 @@
-"""Tables of transitions, as CSV files and data frames hold them, as models: a header, then a line for every outcome."""
+"""Tables of transitions, as CSV files, Markdown and data frames hold them, as models: a header, then every outcome."""
 
 import csv
 import re
 from collections.abc import Iterable, Mapping
+from itertools import dropwhile, takewhile
 from typing import Any
 
 from rldrill.problems.model_forms import ALONE
@@ -12,13 +13,26 @@ _COLUMNS = {
     "state": ("state", "s", "from", "fromstate", "currentstate", "source", "start"),
     "action": ("action", "a", "act"),
     "next": ("next", "nextstate", "s'", "s′", "s2", "sp", "sprime", "newstate", "successor", "to", "tostate", "target"),
-    "probability": ("probability", "prob", "p", "pr", "chance", "transitionprobability", "t"),
-    "reward": ("reward", "r", "rewards", "rew"),
+    "probability": (
+        "probability",
+        "prob",
+        "p",
+        "pr",
+        "chance",
+        "transitionprobability",
+        "t",
+        "p(s'|s,a)",
+        "p(s'|s)",
+        "t(s,a,s')",
+    ),
+    "reward": ("reward", "r", "rewards", "rew", "r(s,a,s')", "r(s,a)", "r(s)"),
     "end": ("end", "ends", "done", "terminal", "terminated", "isterminal"),
 }
 _NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spelling in spellings}
 _TRUE, _FALSE = ("1", "true", "yes", "1.0"), ("", "0", "false", "no", "0.0")
 _COMMA = re.compile(r"[+−-]?\d+,\d+")
+#: What parts the cells of a Markdown table, what sets them off, and the line below its header.
+_BAR, _MARKUP, _RULE = re.compile(r"(?<!\\)\|"), re.compile(r"[`*$\\]"), re.compile(r"\s*:?-+:?\s*")
 
 
 def read_transition_table(text: str) -> dict[str, Any]:
@@ -30,11 +44,33 @@ def read_transition_table(text: str) -> dict[str, Any]:
     lines = text.splitlines()
     begin = 1 if lines and re.fullmatch(r"sep=.", lines[0].strip(), re.IGNORECASE) else 0
     parted = max(",;\t", key=lines[begin].count) if len(lines) > begin else ","
-    header, *rows = [
-        (number, row)
-        for number, row in enumerate(csv.reader(lines[begin:], delimiter=parted), begin + 1)
-        if any(cell.strip() for cell in row)
-    ] or [(1, [])]
+    return _table(enumerate(csv.reader(lines[begin:], delimiter=parted), begin + 1), commas=parted != ",")
+
+
+def read_markdown_table(text: str) -> dict[str, Any]:
+    """The first table of a Markdown text, whose lines begin with a bar, as the transitions of a model.
+
+    Raises:
+        ValueError: there is no table, or it is wrong as a CSV text may be.
+    """
+    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]
+    found = list(takewhile(lambda each: each[1].startswith("|"), dropwhile(lambda each: each[1][:1] != "|", lines)))
+    if not found:
+        raise ValueError("there is no table; begin its lines with |, as in | state | action | next | reward |")
+    rows = [(number, _BAR.split(line.removeprefix("|").removesuffix("|"))) for number, line in found]
+    return _table(
+        (
+            (number, [_MARKUP.sub("", cell) for cell in row])
+            for number, row in rows
+            if not all(map(_RULE.fullmatch, row))
+        ),
+        commas=True,
+    )
+
+
+def _table(lines: Iterable[tuple[int, list[str]]], *, commas: bool) -> dict[str, Any]:
+    """A header and its rows, each with the number of its line; where cells may hold decimal commas, these are read."""
+    header, *rows = [(number, row) for number, row in lines if any(cell.strip() for cell in row)] or [(1, [])]
     columns = _columns(header[1])
     read = []
     for number, row in rows:
@@ -42,7 +78,7 @@ def read_transition_table(text: str) -> dict[str, Any]:
             raise ValueError(f"line {number} has {len(row)} entries, the header has {len(header[1])}; make them equal")
         cells = {column: row[place].strip() for place, column in columns.items()}
         for column in ("probability", "reward"):
-            if parted != "," and _COMMA.fullmatch(cells.get(column, "")):
+            if commas and _COMMA.fullmatch(cells.get(column, "")):
                 cells[column] = cells[column].replace(",", ".")
         read.append((f"line {number}", cells))
     return _model(read)

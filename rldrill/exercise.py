@@ -415,8 +415,8 @@ def load(id_or_path: str | Path) -> Exercise:
         return Exercise(drawing.by_id(text))
     if (suffix := Path(text).suffix.lower()) in set(MODEL_SUFFIXES) - set(DATA_SUFFIXES):
         raise UsageError(
-            f'{text[:60]!r} holds a model; write a problem file beside it, with family = "optimal-value", given.gamma, '
-            f'and given.mdp.file = "{Path(text).name[:40]}".'
+            f"{text[:60]!r} is no problem file; if it holds a model, write one beside it, with "
+            f'family = "optimal-value", given.gamma, and given.mdp.file = "{Path(text).name[:40]}".'
         )
     if suffix not in DATA_SUFFIXES:
         raise UsageError(

@@ -14,7 +14,7 @@ from rldrill.problems.expressions import GREEK
 
 #: What the names of files that hold data end in, and of those that hold a model.
 DATA_SUFFIXES = (".toml", ".json")
-MODEL_SUFFIXES = (".csv", ".tsv", ".json", ".toml", ".npz", ".pomdp", ".mdp")
+MODEL_SUFFIXES = (".csv", ".tsv", ".md", ".json", ".toml", ".npz", ".pomdp", ".mdp")
 #: No file that somebody hands in has more bytes.
 LARGEST = 10 * 10**6
 _DEEPEST = 32  # levels of brackets; a problem file needs six
@@ -30,6 +30,7 @@ _BARE_FRACTION = re.compile(r"(?<![\w./-])-?\d+/\d+(?![\w./-])")
 _QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")
 _YAML = re.compile(r"\s*(?:- )?[\w-]+:(?:\s|$)")
 _SPELLED = {glyph: name for name, glyph in GREEK.items()}
+_GREEK_NAME = re.compile(rf"[\w-]*[{''.join(GREEK.values())}][\w-]*")
 _KEY_SHOWN = 40
 
 
@@ -176,8 +177,8 @@ def _cure(message: str, line: str) -> str:
         return f"{key[:_KEY_SHOWN]} stands twice; keep one of them"
     if found := _BARE_FRACTION.search(_QUOTED.sub("", line)):
         return f'a fraction stands in quotes: "{found[0]}"'
-    if any(glyph in key for glyph in GREEK.values()):
-        return f"names are spelled out there: {''.join(_SPELLED.get(sign, sign) for sign in key[:_KEY_SHOWN])}"
+    if found := _GREEK_NAME.search(_QUOTED.sub("", line)):
+        return f"names are spelled out there: {''.join(_SPELLED.get(sign, sign) for sign in found[0][:_KEY_SHOWN])}"
     if _YAML.match(line):
         return "write name = value, as TOML has it; YAML is not read"
     return "fix it there"

@@ -1,4 +1,4 @@
-"""Files that hold a model: tables (CSV, TSV), arrays (.npz), JSON in several forms, and pomdp-solve's format."""
+"""Files that hold a model: tables (CSV, TSV, Markdown), arrays (.npz), JSON in some forms, pomdp-solve's format."""
 
 import zipfile
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import Any
 from rldrill.files import MODEL_SUFFIXES, brief, kind_of, parse, read_bytes, read_text, shown
 from rldrill.problems.errors import FileError
 from rldrill.problems.pomdp_format import read_pomdp
-from rldrill.problems.transition_tables import read_records, read_transition_table
+from rldrill.problems.transition_tables import read_markdown_table, read_records, read_transition_table
 
 _LARGEST = 10 * 10**6  # bytes of unpacked arrays
 
@@ -25,6 +25,8 @@ def read_model(path: str | Path) -> dict[str, Any]:
         text = read_text(path, MODEL_SUFFIXES)
         if suffix in (".csv", ".tsv"):
             return read_transition_table(text)
+        if suffix == ".md":
+            return read_markdown_table(text)
         return read_pomdp(text) if suffix in (".pomdp", ".mdp") else _data(parse(text, path))
     except ValueError as error:
         raise FileError(f"{shown(path)}: {error}.") from None

@@ -12,7 +12,8 @@ _PARTING = re.compile(r"[,;\n]")
 
 
 def typed(value: object, what: str) -> str:
-    """A value as text: texts and numbers as they are, lists in brackets, tables with colons; blank for nothing.
+    """A value as text: texts and numbers as they are, lists in brackets, tables with colons; blank for nothing,
+    or a question mark in a list.
 
     Args:
         value: the answer; a float stands for the shortest decimal that is this float.
@@ -26,7 +27,7 @@ def typed(value: object, what: str) -> str:
     if isinstance(value, dict):
         return ", ".join(_pairs(value, what))
     if isinstance(value, list | tuple):
-        entries = ", ".join(_row(item, what) for item in value)
+        entries = ", ".join("?" if item is None else _row(item, what) for item in value)
         return f"[{entries}]" if value else ""
     return _scalar(value, what)
 
@@ -42,7 +43,7 @@ def _pairs(table: Mapping[object, object], what: str) -> Iterator[str]:
 
 def _row(value: object, what: str) -> str:
     if isinstance(value, list | tuple):
-        return f"[{', '.join(_scalar(item, what) for item in value)}]"
+        return f"[{', '.join('?' if item is None else _scalar(item, what) for item in value)}]"
     return _scalar(value, what)
 
 

@@ -26,6 +26,7 @@ BAD = [
     ),
     ("half.toml", "a = -1/2", 'a fraction stands in quotes: "-1/2".'),
     ("greek.toml", "γ = 0.9", "names are spelled out there: gamma."),
+    ("inline.toml", 'x = {"μ" = 1, σ_1 = 2}', "names are spelled out there: sigma_1."),
     ("twice.toml", "a = 1\na = 2", "a stands twice; keep one of them."),
     ("yaml.toml", "family: return\n", "write name = value, as TOML has it; YAML is not read."),
     ("date.toml", 'a = "1/2" x', "(expected newline or end of document after a statement); fix it there."),

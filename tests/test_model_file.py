@@ -64,6 +64,12 @@ def optimal(folder: Path, name: str, content: str | bytes, mdp: str = "", gamma:
         ("frame.csv", "".join(f"{index - 1 if index else ''},{line}\n" for index, line in enumerate(CAR.splitlines()))),
         ("done.csv", CAR.replace("reward\n", "reward,done\n").replace("1\n", "1,False\n").replace("2\n", "2,False\n")
          .replace("-10\n", "-10,True\n")),
+        ("books.csv", CAR.replace("state,action,next,probability,reward", "s,a,s',\"P(s'|s, a)\",\"R(s,a,s')\"")),
+        ("car.md", "# A car\n\n" + "\n".join(f"| {line} |".replace(",", " | ") for line in CAR.splitlines())
+         .replace("reward |\n", "reward |\n|:--|--|--|:-:|--:|\n").replace("0.5", "0,5").replace("| -10", "| $-10$")
+         + "\n\nno | more\n"),
+        ("bars.md", "\n".join(f"|{line}|".replace(",", "|") for line in CAR.splitlines())
+         .replace("probability", "P(s'\\|s,a)").replace("|next|", "|`s'`|").replace("|cool|", "|**cool**|")),
         ("car.json", json.dumps(RECORDS)),
         ("rows.json", json.dumps([line.split(",") for line in CAR.splitlines()[1:]])),
         ("model.json", json.dumps({"transitions": [line.split(",") for line in CAR.splitlines()[1:]]})),
@@ -110,6 +116,8 @@ def test_a_process_without_actions(tmp_path: Path) -> None:
         ("a.csv", "s,a,s',r\n", "there is no transition below the header"),
         ("a.csv", CAR + "cool,slow\n", "line 8 has 2 entries, the header has 5"),
         ("a.csv", "s,s',r,done\nx,y,1,perhaps\n", "line 2: whether the episode ends is 'perhaps'; write true or false"),
+        ("a.md", "s, a, s', r\n", "there is no table; begin its lines with |, as in | state | action | next |"),
+        ("a.md", "\n\n| s | a | s' | r |\n|---|---|---|---|\n| x | y |\n", "line 5 has 2 entries, the header has 4"),
         ("a.json", "[1, 2]", "given.mdp.transitions[1]"),
         ("a.json", "3", "a model is a table or a list of transitions, not a single value"),
         ("a.json", '{"family": "td-zero"}', "this is a problem file"),
@@ -140,7 +148,9 @@ def test_objects_in_arrays_are_not_read(tmp_path: Path) -> None:
 
 
 def test_a_model_alone_is_no_problem() -> None:
-    with pytest.raises(UsageError, match=r"holds a model; write a problem file beside it, .*file = \"car\.csv\""):
+    with pytest.raises(
+        UsageError, match=r"is no problem file; if it holds a model, write one beside it, .*file = \"car\.csv\""
+    ):
         rldrill.load("car.csv")
 
 

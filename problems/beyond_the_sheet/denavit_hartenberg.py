@@ -9,7 +9,7 @@ from typing import Any, Literal, Self
 from pydantic import Field, model_validator
 
 from rldrill.problems import robots
-from rldrill.problems.angles import AngleField, read_angle, text
+from rldrill.problems.angles import JointField, read_angle, text
 from rldrill.problems.document import Block, Equation, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
@@ -27,10 +27,10 @@ REVISION = 3
 class Link(Givens):
     """The parameters of one link: angle and offset along z, length and twist along the new x."""
 
-    theta: AngleField = Field(description="The angle of the joint about z, in radians.")
+    theta: JointField = Field(description="The angle of the joint about z, in radians.")
     d: Exact = Field(description="The offset along z.")
     a: Exact = Field(description="The length of the link along the new x.")
-    alpha: AngleField = Field(description="The twist of the link about the new x, in radians.")
+    alpha: JointField = Field(description="The twist of the link about the new x, in radians.")
 
 
 class Given(Givens):

@@ -4,7 +4,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, text
+from rldrill.problems.angles import Angle, JointField, degrees, read_angle, text
 from rldrill.problems.arms import PlanarArm, draw_angles, situation
 from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
@@ -23,7 +23,7 @@ class Base(Givens):
 
     x: Exact = Field(default=Fraction(0), description="Where the base is along the x axis.", examples=[1])
     y: Exact = Field(default=Fraction(0), description="Where the base is along the y axis.", examples=[2])
-    phi: AngleField = Field(
+    phi: JointField = Field(
         default=read_angle(0), description="The angle of the base's x axis, in radians.", examples=["pi/6"]
     )
 

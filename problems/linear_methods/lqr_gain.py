@@ -16,6 +16,7 @@ from rldrill.problems.matrices import (
     NumberRows,
     OpenMatrixField,
     check_shape,
+    check_sign,
     check_symmetric,
     is_positive,
     tabular,
@@ -77,6 +78,7 @@ class Given(Conventional):
         if self.action is not None and (self.start is None or not self.left_open):
             raise ValueError("action: it goes with a start, and with a price that R leaves open, such as rho")
         check_symmetric("P", self.P)
+        check_sign("P", self.P, costs=self.notation.costs)
         if self.left_open:
             return self
         check_symmetric("R", self.R)

@@ -17,7 +17,7 @@ from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
 from rldrill.grading.report import Judged, Score, missing
 from rldrill.problems.parts import Part, Policy
-from rldrill.solutions.answers.judging import Incomplete, Outcome, Verdict, credit, judge, read_answer
+from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 if TYPE_CHECKING:
@@ -331,8 +331,6 @@ class _Problem:
     def _readable(self, part: Part, text: str) -> bool:
         try:
             read_answer(self.exercise.solution, part, text)
-        except Incomplete:
-            return True
         except Unreadable:
             return False
         return True

@@ -341,7 +341,7 @@ class Screen:
         verdict = record.answer(part, text).verdict
         if verdict is None:
             return
-        if verdict.outcome is not Outcome.UNREADABLE:
+        if verdict.counts:
             self._recorder.ended(record, part)
         self._verdict(verdict, record, part)
         if part.state is State.DONE:
@@ -385,14 +385,16 @@ class Screen:
             self._print(Text(f"This comes again {self._plan.again(skill, utc_now())}.", style="dim"))
 
     def _verdict(self, verdict: Verdict, record: Record, part: PartRecord) -> None:
+        if verdict.missing:
+            asked = by_name(verdict.missing, part.part.kind)
+            self._signed(("?", "bold yellow"), words((_INCOMPLETE, "bold yellow"), asked))
+            return
         diagnosis = record.diagnosis(part)
         explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
         outcome = Outcome.WRONG if explained else verdict.outcome
         says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
         says = by_name(says, part.part.kind)
         sign, before = _WORDS[outcome]
-        if verdict.missing:
-            before = _INCOMPLETE
         style = f"bold {_STYLES[outcome]}"
         read = _read_otherwise(verdict, part)
         kind = part.part.kind
@@ -406,8 +408,7 @@ class Screen:
             right = _without_value(diagnosis) if part.state is State.OPEN else diagnosis.right
             if right is not None:
                 self._print(compared(diagnosis.wrong, right))
-        counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
-        if counted and part.state is State.OPEN and part.tries in (1, _MISSES):
+        if verdict.counts and not verdict.accepted and part.state is State.OPEN and part.tries in (1, _MISSES):
             self._indented(words((_OR_ELSE if part.tries == 1 else _FIRST_LINE, "dim")))
 
     def _hint(self, record: Record, part: PartRecord) -> None:

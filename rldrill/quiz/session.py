@@ -8,13 +8,11 @@ from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
-from msgspec.structs import replace
 
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Part, YesNo
 from rldrill.quiz.mistakes import called
-from rldrill.solutions.answers.judging import Outcome, Verdict
 
 if TYPE_CHECKING:
     from rldrill.diagnosis import Diagnosis
@@ -57,8 +55,8 @@ class PartRecord(Struct):
 
     @property
     def counted(self) -> list[GradedPart]:
-        """The answers that count; what could not be read does not."""
-        return [answer for answer in self.answers if answer.outcome not in (None, Outcome.UNREADABLE)]
+        """The answers that count; what could not be read, or leaves entries out, does not."""
+        return [answer for answer in self.answers if answer.verdict is not None and answer.verdict.counts]
 
     @property
     def tries(self) -> int:
@@ -119,9 +117,6 @@ class Record(Struct):
         before = takewhile(lambda record: record is not current, self.parts)
         texts = {record.part.label: record.counted[-1].typed for record in before if record.counted}
         graded = self.exercise.grade({**texts, current.part.label: text})[current.part.label]
-        if graded.verdict is not None and graded.verdict.missing:  # it can be typed again
-            missing = graded.verdict.missing
-            graded = replace(graded, verdict=Verdict(Outcome.UNREADABLE, missing, missing=missing))
         current.answers.append(graded)
         current.made.append(self._mistakes(current, graded))
         if graded.accepted:

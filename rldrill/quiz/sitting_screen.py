@@ -22,7 +22,7 @@ from rldrill.quiz.sitting import Place, Sitting, by_topic
 from rldrill.render.compact import Compact
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, render, renderable, words
-from rldrill.solutions.answers.judging import Incomplete, read_answer
+from rldrill.solutions.answers.judging import read_answer, what_is_missing
 from rldrill.solutions.answers.rule import RULE
 from rldrill.solutions.answers.text import Unreadable
 
@@ -210,14 +210,15 @@ class SittingScreen:
 
     def _is_read(self, sitting: Sitting, place: Place, text: str) -> bool:
         """Whether an answer can be read, which is said if not; what it is worth is not."""
+        solution, part = sitting.exercise(place).solution, sitting.part(place)
         try:
-            read_answer(sitting.exercise(place).solution, sitting.part(place), text)
+            fault, says = "what is missing", what_is_missing(solution, part, read_answer(solution, part, text))
         except Unreadable as error:
-            fault = "what is missing" if isinstance(error, Incomplete) else "it cannot be read and"
-            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), error.message)
+            fault, says = "it cannot be read and", error.message
+        if says:
+            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), by_name(says, part.kind))
             self._display.signed(("?", "yellow"), kept)
-            return False
-        return True
+        return not says
 
     def _problem(self, sitting: Sitting, number: int) -> None:
         exercise = sitting.version.exercises[number]

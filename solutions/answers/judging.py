@@ -28,20 +28,6 @@ _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not 
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)[^=:≈\n]*+[=:≈]")
 
 
-class Incomplete(Unreadable):
-    """What was typed leaves entries out.
-
-    Attributes:
-        cells: the entries that were given, by name.
-    """
-
-    def __init__(self, missing: Sequence[str], cells: dict[str, Cell]) -> None:
-        more = [f"{len(missing) - _NAMED} more"] if len(missing) > _NAMED + 1 else missing[_NAMED:]
-        are, them = ("is", "it") if len(missing) == 1 else ("are", "them")
-        super().__init__(f"{joined([*missing[:_NAMED], *more])} {are} missing; give {them} too.")
-        self.cells = cells
-
-
 class Outcome(Enum):
     """What an answer is."""
 
@@ -86,6 +72,11 @@ class Verdict(Struct, frozen=True):
         """Whether the part is done."""
         return self.outcome in (Outcome.RIGHT, Outcome.FOLLOW_THROUGH)
 
+    @property
+    def counts(self) -> bool:
+        """Whether it is a try where one may type again: neither unreadable nor incomplete."""
+        return self.outcome is not Outcome.UNREADABLE and not self.missing
+
 
 def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] | None = None) -> Verdict:
     """Judge what was typed as the answer of a part.
@@ -102,10 +93,10 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     part = part_of(solution, label)
     try:
         cells = read_answer(solution, part, text)
-    except Incomplete as error:
-        return _partly(solution, part, error)
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
+    if missing := what_is_missing(solution, part, cells):
+        return _partly(solution, part, cells, missing)
     value = answer_kind(part.kind).value({name: _content(cell) for name, cell in cells.items()})
     return _judge(solution, part, cells, value, _read(cells), dict(earlier or {}))
 
@@ -113,9 +104,10 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
 def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
     """What was typed as the answer of a part, cell by cell; it may be longer than the right one, but not much.
 
+    A cell that was left out is not in it; ``what_is_missing`` asks for it.
+
     Raises:
         Unreadable: it cannot be understood.
-        Incomplete: entries are left out.
     """
     kind, problem = answer_kind(part.kind), solution.problem
     if isinstance(part.kind, Number) and len(text) <= LONGEST:
@@ -126,10 +118,18 @@ def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
     names = kind.cells(solution.answers[part.label])
     if not isinstance(part.kind, Choice) and part.label not in {*names, *problem.parameters, "e"}:
         text = re.sub(rf"^\s*\(?{part.label}\)\s*(?=\S)", "", text)  # (a) 6.5
-    cells = kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
-    if len(cells) < len(names):
-        raise Incomplete([name for name in names if name not in cells], cells)
-    return cells
+    return kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
+
+
+def what_is_missing(solution: Solution, part: Part, cells: Mapping[str, Cell]) -> str:
+    """The sentence that asks for the entries which an answer leaves out; empty if it leaves none out."""
+    names = answer_kind(part.kind).cells(solution.answers[part.label])
+    missing = [name for name in names if name not in cells]
+    if not missing:
+        return ""
+    more = [f"{len(missing) - _NAMED} more"] if len(missing) > _NAMED + 1 else missing[_NAMED:]
+    are, them = ("is", "it") if len(missing) == 1 else ("are", "them")
+    return f"{joined([*missing[:_NAMED], *more])} {are} missing; give {them} too."
 
 
 def _refuse_other_quantity(text: str, ask: str) -> None:
@@ -160,14 +160,13 @@ def part_of(solution: Solution, label: str) -> Part:
     raise KeyError(label)
 
 
-def _partly(solution: Solution, part: Part, incomplete: Incomplete) -> Verdict:
+def _partly(solution: Solution, part: Part, cells: dict[str, Cell], missing: str) -> Verdict:
     """The judgement of an answer that leaves entries out: they are wrong ones."""
-    cells = incomplete.cells
     key = answer_kind(part.kind).cells(solution.answers[part.label])
     wrong = wrong_cells(cells, key)
     says = _says_wrong([name if name in cells else f"{name} (left out)" for name in wrong], len(key))
     earned = credit(part.kind, len(key), len(wrong))
-    return Verdict(Outcome.WRONG, says, earned, _read(cells), wrong_cells=wrong, missing=str(incomplete))
+    return Verdict(Outcome.WRONG, says, earned, _read(cells), wrong_cells=wrong, missing=missing)
 
 
 def _judge(

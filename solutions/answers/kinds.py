@@ -200,9 +200,8 @@ class MatrixAnswer(Answer[parts.Matrix]):
         }
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        return dict(
-            self.cells(read_matrix(text, (self.kind.rows, self.kind.columns), allowed.parameters, allowed.longest))
-        )
+        read = read_matrix(text, (self.kind.rows, self.kind.columns), allowed.parameters, allowed.longest)
+        return {name: reading for name, reading in self.cells(read).items() if reading is not None}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         entries = list(cells.values())

@@ -28,8 +28,8 @@ _WAYS = {
     "right": "→ ➡ ⇨ ▶ > -> right east e r rechts",
 }
 _WAY = {sign: way for way, signs in _WAYS.items() for sign in signs.split()}
-#: What is typed for a tie of two actions, where there are only two.
-_OF_TWO = ("both", "either")
+#: What is typed for a tie of all actions; of two, where there are only two.
+_OF_ALL, _OF_TWO = ("any", "all"), ("both", "either")
 _ALTERNATIVES = re.compile(r"\s+(?:or|and|oder|und)\s+|\s*(?:[/|&,;]|\bor\b|∨)\s*")
 
 
@@ -185,7 +185,7 @@ def the_options(word: Source, place: str, allowed: Sequence[str]) -> tuple[str, 
     if (len(several) > 1 or inside is not word) and each and all(len(found) == 1 for found in each):
         chosen = {found[0] for found in each}
         return tuple(option for option in allowed if option in chosen)
-    if not hits and len(allowed) == 2 and inside.text.strip().casefold() in _OF_TWO:
+    if not hits and inside.text.strip().casefold() in (*_OF_ALL, *(_OF_TWO if len(allowed) == 2 else ())):
         return tuple(allowed)
     fault = "may be any of" if hits else "is not one of"
     raise word.unreadable(f"{quoted(word.text)} {fault} {listed(hits or allowed)}; type one of them.").within(place)

@@ -9,7 +9,20 @@ from msgspec import Struct
 
 from rldrill.problems.exact import PARAMETERS
 from rldrill.problems.grammar import read
-from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, Operation, folded, nodes, rank
+from rldrill.problems.notation import (
+    ATOM,
+    FUNCTIONS,
+    POWER,
+    PRODUCT,
+    SUM,
+    Name,
+    Node,
+    Numeral,
+    Operation,
+    folded,
+    nodes,
+    rank,
+)
 from rldrill.problems.spelling import VULGAR, Source, Unreadable, quoted
 from rldrill.solutions.answers.arithmetic import Arithmetic
 from rldrill.solutions.answers.rule import equivalent, within
@@ -30,6 +43,10 @@ _AGAIN = re.compile(r"(?:i\.\s?e\.,?|or\b|[=≈~]|approx(?:imately)?\b\.?|about\
 _DECIMAL = re.compile(r"[-+]?\s*(?:[0-9]+(?:\.([0-9]*))?|\.([0-9]+))(?:e([-+]?[0-9]+))?\s*(%)?", re.IGNORECASE)
 _PLAIN = re.compile(r"(-?[0-9]{1,15})(?:\.([0-9]{1,15})|/([1-9][0-9]{0,14}))?")
 _MOST_FORMS = 8
+#: What may be said behind a number of how exact it is, and that its last digits repeat.
+_ABOUT_BEHIND = re.compile(r"\s*\(?\s*\b(?:approx(?:imately)?|rounded|exact(?:ly)?)\b\.?\s*\)?$", re.IGNORECASE)
+_REPEATING = re.compile(r"(?<=\.)([0-9]+)\s*\(?(?:repeating|recurring|periodic)\b\)?", re.IGNORECASE)
+_WORD = re.compile(r"(?<![A-Za-z0-9_\\'\"])[A-Za-z]{2,}(?![A-Za-z0-9_.(\[])")
 _ENDLESS = frozenset({"nan", "inf", "infinity", "∞"})
 
 
@@ -68,7 +85,8 @@ def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) ->
     Raises:
         Unreadable: it is not a number, or not one of moderate size, or may be read as two.
     """
-    source = bare(source).replaced(_QUOTED, lambda match: f"({match[2]})")
+    source = bare(source).replaced(_QUOTED, lambda match: f"({match[2]})").replaced(_ABOUT_BEHIND, lambda _: "")
+    source = source.replaced(_REPEATING, _with_bars)
     if "x" not in parameters:
         source = source.replaced(_TIMES, lambda match: f"{match[1]}*{match[2]}")
     if source.text[-2:] in (").", "%.", "}.", "]."):  # the end of a sentence
@@ -97,7 +115,11 @@ class _Form(Struct, frozen=True):
 
 def _single(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> _Form:
     """A number in one form."""
-    tree = read(source)
+    try:
+        tree = read(source)
+    except Unreadable:
+        _refuse_words(source, parameters)
+        raise
     units = _behind_numbers(tree)
     names = {node.text: _meant(node, parameters, node in units) for node in nodes(tree) if isinstance(node, Name)}
 
@@ -110,6 +132,24 @@ def _single(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
     value = arithmetic.finish(folded(tree, worth))
     echo = folded(tree, lambda node, parts: _echo(node, parts, names))
     return _Form(source, tree, Reading(value, _cut(echo), any(map(_is_decimal, nodes(tree)))))
+
+
+def _with_bars(match: re.Match[str]) -> str:
+    """The digits behind the point with bars over those that repeat, if one sees which: 0.3 repeating."""
+    digits = match[1]
+    return "".join(f"{digit}\u0305" for digit in digits) if len({*digits}) == 1 else f"{digits}..."
+
+
+def _refuse_words(source: Source, parameters: Sequence[str]) -> None:
+    """Complain about the first word that has no place in a number: it is why nothing can be made of the rest.
+
+    Raises:
+        Unreadable: there is one.
+    """
+    for word in _WORD.finditer(source.text):
+        if word[0].lower() not in FUNCTIONS:
+            behind = source.text[: word.start()].rstrip()[-1:].isdigit()
+            _meant(Name(word[0], source.column(word.start())), parameters, behind)
 
 
 def _cut(echo: str) -> str:
@@ -162,15 +202,16 @@ def _in_brackets(source: Source, parameters: Sequence[str], arithmetic: Arithmet
     again = bool(said and said.end())
     inside = inside.part(said.end() if said else 0, len(inside.text))
     last, spaced = outside.text[-1:], source.text[ends[0] - 1].isspace()
-    if not (last.isalnum() or last in (".", "%", ")", "}", "]", "…") or last in VULGAR):
+    if not (last.isalnum() or last in (".", "%", "°", ")", "}", "]", "…") or last in VULGAR):
         return None
     try:
-        if not again and not _is_plain(read(inside)):
-            return None
+        plain_inside = again or _is_plain(read(inside))
         first, second = (_single(form, parameters, arithmetic) for form in (outside, inside))
     except Unreadable:
         return None
     agree = _agree(first, second)
+    if not plain_inside and not (spaced and (agree or _agree(second, first))):  # 0.707 (√2/2)
+        return None
     if again:
         if agree:
             return _together([first, second])

@@ -4,8 +4,10 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
+from itertools import chain
 from typing import TypeVar
 
+from rldrill.problems.expressions import GREEK
 from rldrill.problems.spelling import Source, Unreadable, quoted, spelled
 from rldrill.solutions.answers.arithmetic import Arithmetic
 from rldrill.solutions.answers.keyed import Asked, by_name, in_order
@@ -59,6 +61,8 @@ _ONLY_NAME = re.compile(_NAME)
 _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)|∂[^\s=:,;]*\s*=(?!=)")
 _YES = frozenset({"yes", "y", "true", "t", "ja", "j"})
 _NO = frozenset({"no", "n", "false", "f", "nein"})
+#: What parts yes or no from the reason for it.
+_WHY = re.compile(r"\s*[,;:.(–—]\s*|\s+(?:-|because|since|as)\s+")
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
@@ -70,6 +74,7 @@ _SAID_FIRST = re.compile(
 )
 _ENTRIES = 200
 _FORMS = 30
+_NUMBER_FIRST = re.compile(r"[-+]?[0-9][0-9./]*\s+([A-Za-z]{2,})(?![\w({\[])")
 
 
 def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGEST) -> Reading:
@@ -115,13 +120,15 @@ def read_vector(
         Unreadable: an entry is not a number, or is given twice, or there are too few or too many; or names that
             are not known stand in another order than the alphabet's, so that they may mean another one.
     """
+    if length == 1:
+        return (read_number(text.rstrip(" ,;"), parameters, longest),)
     source = clean(text, longest)
 
     def vector(member: Source) -> tuple[Reading | None, ...]:
         return _vector(member, length, parameters, names, called)
 
     body = _right_side(source)
-    if length != 1 and body.has("=≈") and len(_pieces(body, length, parameters, called)) == 1:
+    if body.has("=≈") and len(_pieces(body, length, parameters, called)) == 1:
         return _forms(source, vector, _given)  # (1/4, 2) = (0.25, 2)
     return vector(source)
 
@@ -146,8 +153,8 @@ def _vector(
     readings = dict(zip(given, _numbers([entries[i] for i in given], parameters, place, most=most), strict=True))
     if length is not None and len(entries) != length:
         shown = listed(re.sub('[{}"]', "", name) for name in names)  # as one may type them
-        needed = f"{length} {_are(length)} needed{f': {shown}' if length > 1 and names else ''}."
-        raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), length)}")
+        needed = f"{length} are needed{f': {shown}' if names else ''}."
+        raise source.unreadable(f"{_count(len(entries))} read, {needed}{_comma(source, len(entries), length)}")
     return tuple(readings.get(index) for index in range(len(entries)))
 
 
@@ -173,8 +180,10 @@ def _pieces(source: Source, length: int | None, parameters: Sequence[str], calle
 
 def read_matrix(
     text: str, shape: tuple[int, int] | None = None, parameters: Sequence[str] = (), longest: int = LONGEST
-) -> tuple[tuple[Reading, ...], ...]:
+) -> tuple[tuple[Reading | None, ...], ...]:
     """Read a matrix by its rows: ``[[1, 2], [3, 4]]`` or ``[1 2; 3 4]`` or one row on each line.
+
+    None stands for an entry that is left out: ``[1, ?; 3, 4]``.
 
     Args:
         text: what was typed.
@@ -188,13 +197,13 @@ def read_matrix(
     """
     source = clean(text, longest)
     return _forms(
-        source, lambda member: _matrix(member, shape, parameters), lambda rows: [entry for row in rows for entry in row]
+        source, lambda member: _matrix(member, shape, parameters), lambda rows: _given(chain.from_iterable(rows))
     )
 
 
 def _matrix(
     source: Source, shape: tuple[int, int] | None, parameters: Sequence[str]
-) -> tuple[tuple[Reading, ...], ...]:
+) -> tuple[tuple[Reading | None, ...], ...]:
     body = untransposed(source)
     transposed = body is not source
     factor, body = _scaled(body, parameters)
@@ -204,12 +213,18 @@ def _matrix(
         rows = plain_rows(body, spaced=shape not in (None, (1, 1)))
     if len(rows) > (most := max(_ENTRIES, *shape or (1,))):
         raise source.unreadable(f"More than {most} rows were typed; leave out those that were not asked for.")
-    rows = [_times(factor, row) for row in rows] if factor else rows
     arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
-    matrix = [
-        _numbers(row, parameters, None if alone else f"row {i}, entry {{}}".format, arithmetic, most)
-        for i, row in enumerate(rows, 1)
-    ]
+    nothing = all(left_out(entry) for row in rows for entry in row)
+
+    def read_row(number: int, row: list[Source]) -> tuple[Reading | None, ...]:
+        given = [i for i, entry in enumerate(row) if nothing or not left_out(entry)]
+        entries = [row[i] for i in given]
+        place = None if alone else lambda i: f"row {number}, entry {given[i - 1] + 1}"
+        readings = _numbers(_times(factor, entries) if factor else entries, parameters, place, arithmetic, most)
+        found = dict(zip(given, readings, strict=True))
+        return tuple(found.get(i) for i in range(len(row)))
+
+    matrix = [read_row(number, row) for number, row in enumerate(rows, 1)]
     for i, row in enumerate(matrix, 1):
         if len(row) != len(matrix[0]):
             raise source.unreadable(f"Row {i} has length {len(row)}, row 1 has {len(matrix[0])}; make them equal.")
@@ -218,8 +233,7 @@ def _matrix(
     read = (len(matrix), len(matrix[0]))
     if shape is not None and read != shape:
         if not (plain and 1 in read and read == shape[::-1]):
-            needed = "one number" if shape == (1, 1) else f"{shape[0]}×{shape[1]}"
-            sizes = f"A {read[0]}×{read[1]} matrix was read, {needed} is needed."
+            sizes = f"A {read[0]}×{read[1]} matrix was read, {_wanted(*shape)}."
             raise source.unreadable(sizes + _comma(source, read[0] * read[1], shape[0] * shape[1]))
         matrix = list(zip(*matrix, strict=True))
     return tuple(matrix)
@@ -404,7 +418,8 @@ def _partly(typed: str, spellings: Sequence[tuple[str, str]]) -> list[str]:
         return []
     told = [(spelled(spelling).casefold(), letter) for spelling, letter in spellings]
     words = re.compile(rf"(?<!\w){re.escape(typed)}(?!\w)")
-    having = [letter for spelling, letter in told if words.search(spelling)]
+    found = words.search if any(map(str.isalpha, typed)) else words.match  # the 1 in "with n > 1" tells nothing
+    having = [letter for spelling, letter in told if found(spelling)]
     return having if len(having) == 1 else [letter for spelling, letter in told if spelling.startswith(typed)] or having
 
 
@@ -415,9 +430,9 @@ def read_yes_no(text: str) -> bool:
         Unreadable: it is neither.
     """
     source = clean(text)
-    word = unquoted(source.text).casefold().rstrip(".!")
-    if word in _YES or word in _NO:
-        return word in _YES
+    said, *why = _WHY.split(unquoted(source.text).casefold().rstrip(".!"), maxsplit=1)
+    if said in _YES | _NO and not (_YES | _NO) - {said} & set(re.findall(r"\w{2,}", "".join(why))):
+        return said in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
 
 
@@ -547,7 +562,7 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
         try:
             number(member, parameters, probe)
         except Unreadable:
-            if not member.text or re.search(r"[^\W\d_]", member.text):
+            if not member.text or (re.search(r"[^\W\d_]", member.text) and not _goes_on(member.text)):
                 begun = stop + 1  # V(cool), max{1; 2}
             break
     try:
@@ -556,6 +571,12 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
         if begun or not signs or not _ONLY_NAME.fullmatch(source.text[: signs[0]].strip()):
             raise
         return number(source.part(signs[0] + 1, len(source.text)), parameters, arithmetic)  # e = 2 may name the trace
+
+
+def _goes_on(text: str) -> bool:
+    """Whether a number stands first and words go on from it: ``2.5 because γ``, before an equal sign."""
+    found = _NUMBER_FIRST.match(text)
+    return found is not None and found[1].lower() not in GREEK
 
 
 def _numbers(
@@ -580,6 +601,14 @@ def _numbers(
 
 def _count(count: int, noun: str = "number") -> str:
     return f"1 {noun} was" if count == 1 else f"{count} {noun}s were"
+
+
+def _wanted(rows: int, columns: int) -> str:
+    """Which shape is needed, and how that is typed."""
+    if rows == columns == 1:
+        return "one number is needed"
+    line = f"{columns} numbers" if columns > 1 else "1 number"
+    return f"{rows}×{columns} is needed: {f'{rows} rows of {line}, parted by semicolons' if rows > 1 else line}"
 
 
 def _are(count: int) -> str:

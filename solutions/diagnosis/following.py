@@ -123,7 +123,11 @@ class _Follower:
         return (read_number(piece, self.search.problem.parameters),)
 
     def _grid(self, piece: str, shape: tuple[int, int]) -> Entries:
-        return tuple(entry for line in read_matrix(piece, shape, self.search.problem.parameters) for entry in line)
+        read_ = [entry for line in read_matrix(piece, shape, self.search.problem.parameters) for entry in line]
+        given = tuple(entry for entry in read_ if entry is not None)
+        if len(given) < len(read_):
+            raise Unreadable("Entries are left out; give them too.")
+        return given
 
     def _placed(self, text: str, label: str, last: Entries) -> Line:
         standing = Standing.FOLLOWS if self.values else Standing.RIGHT

@@ -25,6 +25,11 @@ READ = {
     "0.33..": ("1/3", "1/3"), "0.1333...": ("2/15", "2/15"), "0.1212…": ("4/33", "4/33"), "2.66...": ("8/3", "8/3"),
     "0.0123123...": ("41/3330", "41/3330"), "0.11212...": ("37/330", "37/330"), ".(3)": ("1/3", "1/3"),
     r"0.\overline{18}": ("2/11", "2/11"), "1/3 = 0.333...": ("1/3", "1/3 = 1/3"),
+    "0.3 repeating": ("1/3", "1/3"), "-1.66 (recurring)": ("-5/3", "-5/3"), "0.3 periodic": ("1/3", "1/3"),
+    # signs as words
+    "minus 1/4": ("-1/4", "-1/4"), "negative 0.25": ("-1/4", "-0.25"), "3 minus 1": ("2", "3 - 1"),
+    "25 percent": ("1/4", "25%"), "25 per cent": ("1/4", "25%"),
+    "33 1/3 %": ("1/3", "(100/3)%"), "33⅓%": ("1/3", "(100/3)%"),
     # signs of products, also the letter x
     "2.5 x 10^-1": ("1/4", "2.5*10^(-1)"), "2.5X0.1": ("1/4", "2.5*0.1"), "2.5•10⁻¹": ("1/4", "2.5*10^(-1)"),
     "2 ✕ 3": ("6", "2*3"), "(1/2) (1/3)": ("1/6", "1/2*(1/3)"), "1 + 0.9 (0.5)": ("29/20", "1 + 0.9*0.5"),
@@ -44,7 +49,11 @@ READ = {
     "2.5*^-1": ("1/4", "2.5e-1"),
     # what stands around a number
     "=6.8": ("34/5", "6.8"), "≈ 6.8": ("34/5", "6.8"), "approx. 6.8": ("34/5", "6.8"), '"6.8"': ("34/5", "6.8"),
-    "‘6.8’": ("34/5", "6.8"), "6.8.": ("34/5", "6.8"),
+    "‘6.8’": ("34/5", "6.8"), "6.8.": ("34/5", "6.8"), "6.8 (approx)": ("34/5", "6.8"), "6.8 approx.": ("34/5", "6.8"),
+    "6.8 (rounded)": ("34/5", "6.8"), "34/5 (exact)": ("34/5", "34/5"), "34/5 exactly": ("34/5", "34/5"),
+    # degrees, where an angle is taken
+    "cos(60°)": ("1/2", "cos(60*(pi/180))"), "sin 30° + 1": ("3/2", "sin(30*(pi/180)) + 1"),
+    "tan(30° + 15 deg)": ("1", "tan(30*(pi/180) + 15*(pi/180))"), r"\cos 60^\circ": ("1/2", "cos(60*(pi/180))"),
     # digits of other scripts
     "٠٫٢٥": ("1/4", "0.25"), "۱/۴": ("1/4", "1/4"), "१/४": ("1/4", "1/4"),
     "１／４": ("1/4", "1/4"), "٢٥٪": ("1/4", "25%"),
@@ -89,6 +98,20 @@ REFUSED = {
     "--3": "may be '3' or '-3'",
     "5 m": "write the number alone, without a unit",
     "5$": "'$' is a unit",
+    "45°": "'°' is a unit",
+    "cos(0)*45°": "'°' is a unit",
+    "5 rad": "'rad' is not something this answer may contain; write the number alone, without a unit",
+    "0.16 repeating": "does not show which digits repeat; write '0.16', or a fraction",
+    "0.707 (√2/2)": "may be '0.707*(sqrt(2)/2)' or say '0.707' and 'sqrt(2)/2'",
+    "-2.12 (-3√2/2)": "may be '-2.12*(-3*sqrt(2)/2)' or say '-2.12' and '-3*sqrt(2)/2'",
+    # a word tells more than what comes of it
+    "I think 2.5": "'think' is not something",
+    "maybe 2.5": "'maybe' is not something",
+    "1 over 3": "'over' is not something",
+    "2.5 // slip": "'slip' is not something",
+    "2.5 because γ = 1/2": "'because' is not something",
+    "don't know": "'don' is not something",
+    "e^-1/2": "may be ^(-1/2) or (…^-1)/2",
     "1\\frac34": "may be 1 + 3/4 or 1*3/4",
     "0x10": "'x10' is not something",
     "2x": "'x' is not something",
@@ -111,6 +134,7 @@ def test_x_is_a_parameter_where_the_problem_has_one() -> None:
 
 def test_two_forms_of_an_expression() -> None:
     assert read_number("(1 - γ²)/(1 - γ) = 1 + γ", ["gamma"]).echo == "(1 - gamma^2)/(1 - gamma) = 1 + gamma"
+    assert read_number("2 (√2/2)").echo == "2*(sqrt(2)/2)"
     assert read_number("sqrt(2)/2 (0.707)").echo == "sqrt(2)/2 ≈ 0.707"
     assert read_number("exp(-1) ≈ 0.368").echo == "exp(-1) ≈ 0.368"
     with pytest.raises(Unreadable, match="which differ"):

@@ -228,7 +228,7 @@ REFUSED = {
     "foo": "'foo' is not something this answer may contain",
     "beta": "it may contain gamma.",
     "α": "it may contain gamma.",
-    "__import__('os')": "'_' is not understood here",
+    "__import__('os')": "'os' is not something this answer may contain",
     "3,5": "3,5 has a decimal comma; write 3.5.",
     "-0,500": "0,500 has a decimal comma; write 0.500.",
     "exp(0,5)": "0,5 has a decimal comma; write 0.5.",
@@ -350,7 +350,8 @@ def test_entries_of_vectors_may_be_expressions():
     [
         ("1, 2", 3, "2 numbers were read, 3 are needed."),
         ("[1]", 2, "1 number was read, 2 are needed."),
-        ("3,5", 1, "2 numbers were read, 1 is needed. Decimals are written with a point"),
+        ("3,5", 1, "3,5 has a decimal comma; write 3.5."),
+        ("1,000", 1, "'1,000' may be '1.000' or '1000'; write the one that is meant."),
         ("1,5; 2,5", 2, "1,5 has a decimal comma; write 1.5."),
         ("-1 -0,5", 2, "0,5 has a decimal comma; write 0.5."),
         ("x = -1 -0,5", 2, "0,5 has a decimal comma; write 0.5."),
@@ -369,7 +370,15 @@ def test_vectors_refused(text, length, fragment):
 def test_too_few_numbers_of_a_vector_are_told_which_are_needed():
     assert refusal(read_vector, "1", 2, (), ["x", "y"]).message == "1 number was read, 2 are needed: x, y."
     assert refusal(read_vector, "1, 2, 3", 2, (), ["x", "y"]).message == "3 numbers were read, 2 are needed: x, y."
-    assert refusal(read_vector, "1, 2", 1, (), ["x"]).message.startswith("2 numbers were read, 1 is needed.")
+    assert refusal(read_vector, "1, -, 3", 2, (), ["x", "y"]).message == "3 numbers were read, 2 are needed: x, y."
+    assert refusal(read_vector, "1, 2", 1, (), ["x"]).message.startswith("One number is needed here, and this goes on")
+
+
+@pytest.mark.parametrize(
+    "text", ["the answer is 1/3", "1/3 (approx. 0.333)", "1/3 (= 0.333)", "R_0: 1/3", "[1/3]", "1/3,"]
+)
+def test_a_vector_of_one_entry_is_read_as_a_number(text):
+    assert values(read_vector(text, 1, (), ["R_0"])) == [fmpq(1, 3)]
 
 
 MATRICES = [
@@ -415,8 +424,8 @@ def test_a_single_entry_may_be_typed_as_a_number(text):
 @pytest.mark.parametrize(
     ("text", "shape", "fragment"),
     [
-        ("[1 2 3; 4 5 6]", (2, 2), "A 2×3 matrix was read, 2×2 is needed."),
-        ("[[1, 2]]", (2, 1), "A 1×2 matrix was read, 2×1 is needed."),
+        ("[1 2 3; 4 5 6]", (2, 2), "A 2×3 matrix was read, 2×2 is needed: 2 rows of 2 numbers, parted by semicolons."),
+        ("[[1, 2]]", (2, 1), "A 1×2 matrix was read, 2×1 is needed: 2 rows of 1 number, parted by semicolons."),
         ("[[1, 2]]", (1, 1), "A 1×2 matrix was read, one number is needed."),
         ("[1 2; 3]", (2, 2), "Row 2 has length 1, row 1 has 2"),
         ("[1, 2; 3, x]", (2, 2), "row 2, entry 2: 'x' is not"),
@@ -426,6 +435,15 @@ def test_a_single_entry_may_be_typed_as_a_number(text):
 )
 def test_matrices_refused(text, shape, fragment):
     assert fragment in refusal(read_matrix, text, shape).message
+
+
+@pytest.mark.parametrize("text", ["[1, ?; 3, 4]", "[[1, …], [3, 4]]", "1 ?\n3 4", "1/2 [2 -; 6 8]"])
+def test_entries_of_a_matrix_may_be_left_out(text):
+    assert [[cell and cell.value for cell in row] for row in read_matrix(text, (2, 2))] == [[1, None], [3, 4]]
+
+
+def test_of_a_matrix_something_must_be_given():
+    assert refusal(read_matrix, "[?, ?; ?, ?]", (2, 2)).message.startswith("row 1, entry 1: '?' is not understood")
 
 
 TABLES = [
@@ -592,6 +610,12 @@ def test_both_of_two_actions_are_a_tie(text: str) -> None:
     assert read_words("both, slow", ["cool", "warm"], named) == {"cool": ("both",), "warm": ("slow",)}
 
 
+@pytest.mark.parametrize("text", ["any, slow", "cool: all, warm: slow"])
+def test_all_actions_are_a_tie(text: str) -> None:
+    actions = {"cool": ("slow", "fast", "stop"), "warm": ("slow", "fast")}
+    assert read_words(text, ["cool", "warm"], actions) == {"cool": ("slow", "fast", "stop"), "warm": ("slow",)}
+
+
 @pytest.mark.parametrize("text", ["cool: fast", "cool: fast, warm: ", "fast, -"])
 def test_what_is_left_out_of_a_policy_is_not_read(text: str) -> None:
     assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": ("fast",)}
@@ -630,6 +654,16 @@ def test_choices(text, letter):
     assert read_choice(text, options) == letter
 
 
+@pytest.mark.parametrize(("text", "letter"), [("10", "B"), ("2", "C"), ("n > 1", "A")])
+def test_a_number_is_no_word_of_a_choice_but_may_begin_one(text, letter):
+    assert read_choice(text, {"A": "n-step TD, with $n > 1$", "B": "10 sweeps", "C": "2 sweeps"}) == letter
+
+
+def test_a_number_inside_a_choice_does_not_name_it():
+    fault = refusal(read_choice, "1", {"A": "TD(0)", "B": "n-step TD, with $n > 1$"})
+    assert fault.message == "'1' is not one of the options; type a letter from A to B."
+
+
 def test_choices_refused():
     options = {"a": "Sarsa with zeal", "b": "Q-learning with zeal", "c": "Q(λ)"}
     assert "'Q' fits more than one option; type a letter from a to c." in refusal(read_choice, "Q", options).message
@@ -644,6 +678,19 @@ def test_yes_and_no():
     assert all(map(read_yes_no, ["yes", "Y", "True", "ja.", " YES! "]))
     assert not any(map(read_yes_no, ["no", "N", "false", "Nein"]))
     assert "'maybe' is neither yes nor no" in refusal(read_yes_no, "maybe").message
+
+
+@pytest.mark.parametrize(
+    "why", [", det J = 1", " (det = 1)", ": it is regular.", " because det J = 1", " – since 1 ≠ 0"]
+)
+def test_yes_or_no_may_have_its_reason(why: str) -> None:
+    assert read_yes_no(f"yes{why}")
+    assert not read_yes_no(f"No{why}")
+
+
+@pytest.mark.parametrize("text", ["yes, no", "no, yes it is", "yes (or no)", "yes and no", "no idea", "y/n", "not, as"])
+def test_what_is_no_plain_yes_or_no(text: str) -> None:
+    assert "is neither yes nor no; type one of them." in refusal(read_yes_no, text).message
 
 
 READERS = [

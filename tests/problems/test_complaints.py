@@ -78,7 +78,7 @@ LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
         ({"open": 1}, "given.open: 1 is too large; it must be below 1.0."),
         ({"kind": "three"}, "given.kind: 'three' is not possible here; write 'one' or 'two'."),
         ({"told": "maybe"}, "given.told: 'maybe' is neither true nor false; write one of them."),
-        ({"inner": 3}, "given.inner: must be a table, in which every name has its value."),
+        ({"inner": 3}, "given.inner: must be a table, in which every name has its value: depth."),
         ({"inners": [{}, {"depth": "x"}]}, "given.inners[2].depth: 'x' is not a whole number; write one, such as 3."),
         ({"named": {"abcd": 1}}, "given.named: has 4 characters, 3 are the most; shorten it."),
         ({"named": {"abc": "x"}}, "given.named.abc: 'x' is not a whole number; write one, such as 3."),
@@ -90,7 +90,7 @@ LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
         ({"size": 0, "few": [1]}, "given.few: has 1 entry; it needs at least 2 entries (and 1 more fault)."),
         ({"size": 0, "few": [1], "sized": 1},
          f"given.sized is not a field (did you mean size?); {LISTED} (and 2 more faults)."),
-        ([], "given: must be a table, in which every name has its value."),
+        ([], "given: must be a table, in which every name has its value: few, some, word, sign, size, …."),
     ],
 )  # fmt: skip
 def test_one_sentence_says_what_to_do(given: Any, said: str) -> None:

@@ -1,17 +1,25 @@
 """Matrices in problem files: their shapes, their signs, and what is said where they do not fit."""
 
+import re
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
 import rldrill
 from rldrill.problems.document import Table
 from rldrill.problems.errors import FileError
+from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.matrices import check_weights, is_positive
+from rldrill.problems.matrices import MatricesField, MatrixField, check_weights, is_positive
+
+
+class Matrices(Givens):
+    one: MatrixField
+    series: MatricesField = ()
 
 
 def exact(rows: Any) -> tuple[tuple[Fraction, ...], ...]:
@@ -108,3 +116,43 @@ def test_a_step_without_a_command_has_zeros_where_another_step_has_one() -> None
     without = rldrill.read({"family": "kalman-filter", "given": KALMAN | {"steps": [{"z": 6}]}})
     (table,) = (block for block in without.question() if isinstance(block, Table))
     assert table.rows == (("$z_t$", "$6$"),)
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        "[1 1/2; 0 -1]", "[1, 1/2; 0, -1]", "[[1, 0.5], [0, -1]]", "[[ 1.   0.5]\n [ 0.  -1. ]]", "1 1/2\n0 -1",
+        "np.array([[1, 0.5], [0, -1]])", "numpy.matrix([[1, 0.5],\n        [0, -1]])", "[1 1/2\n0 -1]",
+        r"\begin{bmatrix} 1 & \frac{1}{2} \\\\ 0 & -1 \end{bmatrix}", "\\begin{pmatrix}1&1/2\\\\0&-1\\end{pmatrix}",
+    ],
+)  # fmt: skip
+def test_matrices_may_be_written_as_elsewhere(typed: str) -> None:
+    rows = ((Fraction(1), Fraction(1, 2)), (Fraction(0), Fraction(-1)))
+    assert Matrices.model_validate({"one": typed, "series": typed}) == Matrices(one=rows, series=(rows,))
+
+
+@pytest.mark.parametrize(
+    ("typed", "rows"),
+    [
+        ("3", [[3]]),
+        ("[3]", [[3]]),
+        ("[1 2]", [[1, 2]]),
+        ("[1; 2]", [[1], [2]]),
+        (r"\begin{matrix}1\\2\end{matrix}", [[1], [2]]),
+    ],
+)
+def test_rows_columns_and_numbers_as_texts(typed: str, rows: list[list[int]]) -> None:
+    assert Matrices.model_validate({"one": typed}).one == exact(rows)
+
+
+@pytest.mark.parametrize(
+    ("typed", "says"),
+    [
+        ("[1 2; 3]", "row 2 has length 1, row 1 has 2"),
+        ("[1 0,5; 0 1]", "'1 0' is not a number"),
+        ("eye(2)", "'eye(2)' is not a number"),
+    ],
+)
+def test_texts_that_are_no_matrix(typed: str, says: str) -> None:
+    with pytest.raises(ValidationError, match=re.escape(says)):
+        Matrices.model_validate({"one": typed})

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from asking import solved
 from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
@@ -161,6 +162,9 @@ def test_what_a_form_cannot_say_is_one_sentence(given: dict[str, Any], fragment:
     ("given", "fragment"),
     [
         ({"grid": "..\n."}, "differ in length"),
+        ({"grid": ". .\n.."}, "parted unevenly"),
+        ({"grid": "# -100 #\n1 S 10"}, "parted unevenly; draw each as one sign, free ones as '.'"),
+        ({"grid": "S   G"}, "parted unevenly"),  # blanks for free cells, or for nothing
         ({"grid": "..", "rewards": {"G": 1}}, "'G', but no cell"),
         ({"grid": "..", "slip": 3}, "slip: 3 is not between"),
         ({"grid": "..", "sleep": 3}, "sleep"),
@@ -219,3 +223,12 @@ def test_probabilities_sum_to_one_with_a_parameter_and_its_complement() -> None:
     assert not sums_to_one([p, rest, half])
     assert not sums_to_one([p, Parameter("1-q")])
     assert not sums_to_one([p, half])
+
+
+@pytest.mark.parametrize(
+    "drawn", ["S . .\n. # G", "  S . .\n  . # G", "|S|.|.|\n|.|#|G|", "| S | . | . |\n| . | # | G |"]
+)
+def test_a_grid_may_be_drawn_with_blanks_or_bars_between_its_cells(drawn: str) -> None:
+    # r1c1 is three moves from r2c3: right, right, down
+    given = {"mdp": {"grid": drawn, "step": -1, "ends": ["G"]}, "gamma": 1}
+    assert solved("optimal-value", **given)["a"] == {"r1c1": -3, "r1c2": -2, "r1c3": -1, "r2c1": -4}

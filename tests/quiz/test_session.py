@@ -8,7 +8,6 @@ import rldrill
 from rldrill.history.attempts import Attempt
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
-from rldrill.solutions.answers.judging import Outcome
 
 EXERCISE = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})
 TWO_VALUES = {"family": "value-from-action-values", "given": {
@@ -60,7 +59,7 @@ def test_what_is_left_out_is_asked_for_and_costs_no_try() -> None:
     (part, *_) = fresh.parts  # V^π is 1 and 6
     verdict = fresh.answer(part, "s: 1").verdict
     assert verdict is not None
-    assert (verdict.outcome, verdict.says) == (Outcome.UNREADABLE, "t is missing; give it too.")
+    assert (verdict.counts, verdict.missing) == (False, "t is missing; give it too.")
     assert (part.tries, part.points) == (0, 0)
     fresh.answer(part, "s: 1, t: 6")
     assert part.first_time

@@ -117,7 +117,7 @@ def test_what_is_missing_is_said_and_asked_again_and_counts_as_wrong(tmp_path: P
     sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
     # (a) is −6, 16/5, −3 and of 3 points, (b) medium: 111/25, critical: 47/5 and of one
     _, text, hand = sit(sitting, "-6, , -3", "-6, 0, -3", "critical: 9.4", "leave")
-    assert "Kept, but what is missing would count as wrong: entry 2 is missing; give it too." in text
+    assert "Kept, but what is missing would count as wrong: δ₁ is missing; give it too." in text
     assert "medium is missing; give it too." in text
     assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b", "1b"]
     (graded,) = sitting.graded()

@@ -285,7 +285,27 @@ def test_systems_that_cannot_be_brought_to_rest(system: dict[str, Any], message:
 
 def test_a_gain_needs_an_action_that_is_the_best() -> None:
     with pytest.raises(FileError, match="R − BᵀPB is not positive definite, so no action is the best"):
-        solved("lqr-gain", A=1, B=1, R=4, P=8)  # more action earns ever more
+        solved("lqr-gain", A=[[1, 0], [0, 1]], B=[[1], [0]], R=4, P=[[8, 0], [0, -1]])  # more action earns ever more
+
+
+@pytest.mark.parametrize(
+    ("convention", "P", "says"),
+    [
+        ("value", [[1]], "P is the matrix of a value here, which is negative; give −P, or convention = 'cost-to-go'"),
+        ("value", [[1, 0], [0, 0]], "P is the matrix of a value here, which is negative"),
+        ("xuKP", [[-1]], "P is the matrix of a cost here, which is positive; give −P, or convention = 'value'"),
+    ],
+)
+def test_a_value_matrix_of_the_other_sign_is_refused(convention: str, P: Any, says: str) -> None:
+    size = range(len(P))
+    A = [[int(i == j) for j in size] for i in size]
+    with pytest.raises(FileError, match=says):
+        solved("lqr-gain", convention=convention, A=A, B=[[1] for _ in size], R=4, P=P)  # R ∓ BᵀPB is positive
+
+
+def test_a_value_matrix_of_zeros_has_no_sign() -> None:
+    for convention in ("value", "cost-to-go"):
+        assert solved("lqr-gain", convention=convention, A=1, B=1, R=4, P=0)["a"][0, 0] == 0
 
 
 @pytest.mark.parametrize(

@@ -36,7 +36,39 @@ SAMPLE = {
 }  # fmt: skip
 
 BROUGHT: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
+    # sick 1/10·9/10 = 9/100, healthy 9/10·1/5 = 18/100: one to two; by readings, those under 'sick' would sum to 11/10
+    "a sensor by hypothesis whose readings have the names of the hypotheses": (
+        "bayes-rule",
+        {
+            "prior": {"sick": "1/10", "healthy": "9/10"},
+            "measurements": ["sick"],
+            "likelihood": {"sick": {"sick": "9/10", "healthy": "1/10"}, "healthy": {"sick": "1/5", "healthy": "4/5"}},
+        },
+        {"a": {"sick": Fraction(1, 3), "healthy": Fraction(2, 3)}},
+    ),
+    # the same by readings
+    "a sensor by readings that have the names of the hypotheses": (
+        "bayes-rule",
+        {
+            "prior": {"sick": "1/10", "healthy": "9/10"},
+            "measurements": ["sick"],
+            "likelihood": {"sick": {"sick": "9/10", "healthy": "1/5"}, "healthy": {"sick": "1/10", "healthy": "4/5"}},
+        },
+        {"a": {"sick": Fraction(1, 3), "healthy": Fraction(2, 3)}},
+    ),
     "a sensor by hypothesis": ("bayes-rule", SENSOR, {"a": {"water": Fraction(3, 19), "rock": Fraction(16, 19)}}),
+    # B stays there: 2/(1 − 1/2) = 4; A leads to B for sure: 1 + 4/2 = 3
+    "what is certain is written as a name": (
+        "feature-expectations-policy",
+        {
+            "start": "A",
+            "policy": {"A": "go", "B": "go"},
+            "motion": {"go": {"A": "B", "B": "B"}},
+            "features": {"A": [1], "B": [2]},
+            "gamma": "1/2",
+        },
+        {"a": {"A": Fraction(3), "B": Fraction(4)}, "b": Fraction(3)},
+    ),
     "the only return is sought": ("sample-average", SOUGHT, {"a": Fraction(-1)}),
     "the first return is sought": ("sample-average", SOUGHT_FIRST, {"a": Fraction(2)}),
     "a name in the dynamics": (
