@@ -73,9 +73,7 @@ _EDITS = {
     "min-for-product": "the minimum is taken instead of the product",
 }
 #: What is done to a factor, which a formula may hold twice: then it is told in which product.
-_OF_FACTORS = frozenset(
-    ("factor-left-out", "squared", "squared-value", "complement", "complement-of-value", "divided")
-)
+_OF_FACTORS = frozenset(("factor-left-out", "squared", "squared-value", "complement", "complement-of-value", "divided"))
 #: What happened to the value of a place in a formula; {was} was right, {became} was taken.
 _INSIDE = {
     "minus-lost": "the minus of {part} = {was} is lost",
