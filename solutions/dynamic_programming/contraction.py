@@ -115,7 +115,34 @@ def stops_short(given: Given, work: Work) -> None:
         work.answer(max(_sweeps(work, known, exact(given.accuracy)) - 1, 0))
 
 
-MISCONCEPTIONS = (FORGOT_DISTANCE, ONE_POWER_SHORT, SUM_FOR_MAX, CHANGE_FOR_ERROR, stops_short)
+def _is_met_exactly(given: Given) -> bool:
+    """Whether after some number of sweeps the bound is the accuracy itself."""
+    if given.accuracy is None:
+        return False
+    known, accuracy = _bounds(given, work := Work()), exact(given.accuracy)
+    return bool(work.value(CONTRACTION, k=_sweeps(work, known, accuracy), **known) == accuracy)
+
+
+@slip(
+    "strictly-below",
+    "A bound that is just as large as the accuracy is enough: it says at most, not below.",
+    when=_is_met_exactly,
+)
+def strictly_below(given: Given, work: Work) -> None:
+    """One sweep more, since the bound is to be below the accuracy."""
+    known = _bounds(given, work)
+    if given.accuracy is not None:
+        work.answer(_sweeps(work, known, exact(given.accuracy)) + 1)
+
+
+MISCONCEPTIONS = (
+    FORGOT_DISTANCE,
+    ONE_POWER_SHORT,
+    SUM_FOR_MAX,
+    CHANGE_FOR_ERROR,
+    stops_short,
+    strictly_below.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

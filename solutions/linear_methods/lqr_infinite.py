@@ -20,6 +20,8 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.riccati import Regulator, stationary
 from rldrill.solutions.sheet.linear_methods import (
+    LOOP_WITH_PLUS,
+    NEXT_NOT_DISCOUNTED,
     OTHER_ROOT,
     POSITIVE_S,
     Modes,
@@ -412,6 +414,8 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
 MISCONCEPTIONS = (
     OTHER_ROOT,
     POSITIVE_S,
+    LOOP_WITH_PLUS.where_it_shows(),
+    NEXT_NOT_DISCOUNTED.where_it_shows(),
     linear_quadratic.cost_to_go(solve, lambda _: slice(1)),
 )
 

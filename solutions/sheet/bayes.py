@@ -443,6 +443,9 @@ with evaluate(False):
         )
         for name_, axis in (("x", abscissa), ("y", ordinate))
     )
+    NOT_CENTRED = Misconception(
+        "not-centred", "In both sums the means are subtracted first: (xᵢ − x̄)(yᵢ − ȳ) over (xᵢ − x̄)²."
+    )
     PRODUCTS = Formula(
         "line-products",
         S_xy,
@@ -453,6 +456,9 @@ with evaluate(False):
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x and y is from its mean, multiply and add.",
         place=Place.WORKING,
+        misread={
+            NOT_CENTRED: SumOver(value_of(abscissa, i) * value_of(ordinate, i), i, Counting(1, n)),
+        },
     )
     SQUARES = Formula(
         "line-squares",
@@ -462,6 +468,9 @@ with evaluate(False):
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x is from its mean, square and add.",
         place=Place.WORKING,
+        misread={
+            NOT_CENTRED: SumOver(value_of(abscissa, i) ** 2, i, Counting(1, n)),
+        },
     )
     LINE_SLOPE = Formula(
         "line-slope",
@@ -590,6 +599,7 @@ with evaluate(False):
     HALF_FIT = Misconception("two-forgotten", "The log-likelihood is multiplied by −2, not by −1.")
     BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs ln n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
+    BIC_LOG_2 = Misconception("log-base-2", "The logarithms of the BIC are natural, to the base e, not to the base 2.")
     BIC = Formula(
         "bic",
         bic(M),
@@ -602,6 +612,7 @@ with evaluate(False):
             BIC_SIGN: 2 * log_likelihood + k * log(n),
             BIC_WITHOUT_LOG: -2 * log_likelihood + k * n,
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
+            BIC_LOG_2: (-2 * log_likelihood + k * log(n)) / log(2),
             HALF_FIT: -log_likelihood + k * log(n),
         },
     )

@@ -173,6 +173,9 @@ with evaluate(False):
         title="TD error of Sarsa",
         source="Sutton & Barto 2018, section 12.7",
         hint="Sarsa's target minus the old value of the pair just left.",
+        misread={
+            MAX_FOR_TAKEN: _Q_LEARNING_TARGET - Q(S(t), A(t)),
+        },
     )
     TRACE_WITHOUT_LAMBDA = Misconception(
         "decay-without-lambda",
@@ -417,6 +420,10 @@ with evaluate(False):
     ROLES_EXCHANGED = Misconception(
         "roles-exchanged", "The table that is updated selects the action and the other one values it, not the reverse."
     )
+    NEXT_ACTION_TAKEN = Misconception(
+        "next-action-taken",
+        "The action is the best one of the table that is updated; the action taken there would be Sarsa's.",
+    )
     DOUBLE_Q_ACTION = Formula(
         "double-q-action",
         Selected(t + 1),
@@ -428,6 +435,7 @@ with evaluate(False):
         misread={
             OTHER_TABLE_SELECTS: ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
             ROLES_EXCHANGED: ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
+            NEXT_ACTION_TAKEN: A(t + 1),
         },
     )
     SAME_TABLE_EVALUATES = Misconception(

@@ -215,7 +215,9 @@ with evaluate(False):
         "The action that the gain takes has its price, too: in the form with the closed loop it is added to Q.",
     )
     NEXT_NOT_DISCOUNTED = Misconception(
-        "next-not-discounted", "What comes after this step is discounted: γ stands wherever the next value does."
+        "next-not-discounted",
+        "What comes after this step is discounted: γ stands wherever the next value does.",
+        when=lambda given: given.gamma != 1,
     )
     LQR_RICCATI = Formula(
         "lqr-riccati",

@@ -213,6 +213,9 @@ with evaluate(False):
     INCREMENT_FIRST = Misconception(
         "increment-before-decay", "The trace decays first, and 1 is added after that: the newest visit counts in full."
     )
+    VISITED_DOES_NOT_DECAY = Misconception(
+        "visited-does-not-decay", "Every trace decays at every time, that of the visited state too; then 1 is added."
+    )
     ELIGIBILITY_TRACE = Formula(
         "eligibility-trace",
         e(s),
@@ -226,6 +229,7 @@ with evaluate(False):
             DECAY_WITHOUT_LAMBDA: gamma * e(s) + _VISIT,
             REPLACING: _DECAYED * (1 - _VISIT) + _VISIT,
             INCREMENT_FIRST: gamma * lam * (e(s) + _VISIT),
+            VISITED_DOES_NOT_DECAY: Cases(_VISIT, e(s) + 1, _DECAYED),
         },
     )
 
