@@ -420,10 +420,6 @@ with evaluate(False):
     ROLES_EXCHANGED = Misconception(
         "roles-exchanged", "The table that is updated selects the action and the other one values it, not the reverse."
     )
-    NEXT_ACTION_TAKEN = Misconception(
-        "next-action-taken",
-        "The action is the best one of the table that is updated; the action taken there would be Sarsa's.",
-    )
     DOUBLE_Q_ACTION = Formula(
         "double-q-action",
         Selected(t + 1),
@@ -435,7 +431,6 @@ with evaluate(False):
         misread={
             OTHER_TABLE_SELECTS: ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
             ROLES_EXCHANGED: ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
-            NEXT_ACTION_TAKEN: A(t + 1),
         },
     )
     SAME_TABLE_EVALUATES = Misconception(
