@@ -132,7 +132,7 @@ def prior_again(given: Given, work: Work) -> None:
 @slip(
     "measurement-forgotten-after",
     "Every step goes on from the belief after the measurement before it, not from the prediction.",
-    when=lambda given: given.outcome is None and any(event.measurement for event in _before_others(given)),
+    when=lambda given: any(event.measurement for event in _before_others(given)),
 )
 def unweighed(given: Given, work: Work) -> None:
     """Every step from the prediction of the step before."""

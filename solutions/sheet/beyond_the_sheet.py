@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import cache
 
 from msgspec.structs import replace
-from sympy import Add, Expr, Pow, cos, evaluate, sin
+from sympy import Add, Expr, Pow, Rational, cos, evaluate, sin
 
 from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -322,7 +322,7 @@ with evaluate(False):
         note="For losses $L_i(θ) = c_i/2 (θ − m_i)^2$.",
         place=Place.BEYOND,
         misread={
-            HALF_KEPT: theta0 - alpha * curvature(i) / 2 * (theta0 - optimum(i)),
+            HALF_KEPT: theta0 - Rational(1, 2) * alpha * curvature(i) * (theta0 - optimum(i)),
         },
     )
     MAML_DERIVATIVE = Formula(
@@ -334,7 +334,7 @@ with evaluate(False):
         hint="Differentiate θ′ = θ − αc(θ − m) with respect to θ.",
         place=Place.WORKING,
         misread={
-            HALF_KEPT: 1 - alpha * curvature(i) / 2,
+            HALF_KEPT: 1 - Rational(1, 2) * alpha * curvature(i),
         },
     )
     MAML_GRADIENT = Formula(
@@ -346,7 +346,7 @@ with evaluate(False):
         hint="The chain rule: the derivative of every adapted parameter, times that of its loss.",
         place=Place.WORKING,
         misread={
-            HALF_KEPT: SumOver(curvature(i) / 2 * (adapted(i) - optimum(i)) * adapted_slope(i), i, Tasks),
+            HALF_KEPT: SumOver(Rational(1, 2) * curvature(i) * (adapted(i) - optimum(i)) * adapted_slope(i), i, Tasks),
         },
     )
     MAML_FIRST_ORDER = Formula(
@@ -359,7 +359,7 @@ with evaluate(False):
         sign="←",
         place=Place.WORKING,
         misread={
-            HALF_KEPT: theta0 - beta * SumOver(curvature(i) / 2 * (adapted(i) - optimum(i)), i, Tasks),
+            HALF_KEPT: theta0 - beta * SumOver(Rational(1, 2) * curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
         },
     )
     FIRST_ORDER = Misconception(
@@ -388,7 +388,12 @@ with evaluate(False):
             FIRST_ORDER: theta0 - beta * SumOver(curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
             NOT_ADAPTED: theta0 - beta * SumOver(curvature(i) * (theta0 - optimum(i)), i, Tasks),
             HALF_KEPT: theta0
-            - beta * SumOver((1 - alpha * curvature(i) / 2) * curvature(i) / 2 * (adapted(i) - optimum(i)), i, Tasks),
+            - beta
+            * SumOver(
+                (1 - Rational(1, 2) * alpha * curvature(i)) * Rational(1, 2) * curvature(i) * (adapted(i) - optimum(i)),
+                i,
+                Tasks,
+            ),
             FROM_ADAPTED: adapted(1)
             - beta * SumOver((1 - alpha * curvature(i)) * curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
         },

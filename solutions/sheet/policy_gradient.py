@@ -281,9 +281,6 @@ with evaluate(False):
         "features-averaged-alike",
         "In the expected features each action counts with its probability π(a′|s), not all with the same weight.",
     )
-    DIVIDED_BY_POLICY = Misconception(
-        "divided-by-policy", "The gradient of log π is ∇π/π already: it is not divided by π once more."
-    )
     SCORE_FUNCTION = Formula(
         "score-function",
         score(a, s),
@@ -296,7 +293,6 @@ with evaluate(False):
             FEATURES_ALONE: f_vector(s, a),
             EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices),
             LOG_FORGOTTEN: pi(a, s) * (f_vector(s, a) - SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices)),
-            DIVIDED_BY_POLICY: Pow(pi(a, s), -1) * (f_vector(s, a) - SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices)),
             FEATURES_ALIKE: f_vector(s, a) - Pow(Size(Choices), -1) * SumOver(f_vector(s, a1), a1, Choices),
         },
     )
