@@ -44,15 +44,17 @@ def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[s
     if not found:
         return Explained()
     causes = [each.cause for each in found]
-    told = likeliest(Weighing(outcomes, typed, found).shares(), distinct(causes))
+    shares = Weighing(outcomes, typed, found).shares()
+    groups = [sorted(group, key=lambda one: (causes[one].mistake is None, -shares[one])) for group in distinct(causes)]
+    told = likeliest(shares, groups)
     if sum(share for share, _ in told) < ENOUGH or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
 
 
 def likeliest(shares: Sequence[float], groups: Sequence[Sequence[int]]) -> list[tuple[float, int]]:
-    """What is told, the likeliest first: how likely it is, and the number of the cause that stands for its group."""
-    found = [(sum(shares[one] for one in group), max(group, key=shares.__getitem__)) for group in groups]
+    """What is told, the likeliest first: how likely it is, and the cause that stands for its group, the first of it."""
+    found = [(sum(shares[one] for one in group), group[0]) for group in groups]
     found.sort(key=lambda each: -each[0])
     told = [each for each in found[:MOST] if each[0] >= NEAR * found[0][0]]
     return sorted(told, key=lambda each: -shares[each[1]])

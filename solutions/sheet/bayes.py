@@ -4,7 +4,7 @@ from functools import cache
 from typing import Any
 
 from msgspec.structs import replace
-from sympy import Pow, evaluate, factorial, log, sqrt
+from sympy import Pow, Rational, evaluate, factorial, log, sqrt
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -301,6 +301,11 @@ with evaluate(False):
         "The gain weighs the innovation z − μ̄: start from the predicted mean and go K of the way to the measurement.",
         when=_on_a_line,
     )
+    PREDICTION_AND_READING_ALIKE = Misconception(
+        "prediction-and-reading-alike",
+        "Prediction and measurement do not count alike: go the share K of the way, not half of it.",
+        when=_on_a_line,
+    )
     KALMAN_MEAN = Formula(
         "kalman-mean",
         mean(t),
@@ -311,6 +316,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             GAIN_ON_PREDICTION: read(t) + Kt(t) * (mean_bar(t) - read(t)),
+            PREDICTION_AND_READING_ALIKE: Rational(1, 2) * (mean_bar(t) + read(t)),
         },
     )
     SHARE_TAKEN = Misconception(

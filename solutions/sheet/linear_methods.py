@@ -324,8 +324,8 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 right=-gain(t) * state(t),
                 misread={ACTION_SIGN: gain(t) * state(t)},
             ),
-            replace(LQR_BRACKET, right=bracket),
-            replace(LQR_PRODUCT, right=both),
+            replace(LQR_BRACKET, right=bracket, misread={NEXT_NOT_DISCOUNTED: plain.bracket.right} if plain else {}),
+            replace(LQR_PRODUCT, right=both, misread={NEXT_NOT_DISCOUNTED: plain.product.right} if plain else {}),
             replace(LQR_SOLVED, left=gain(t)),
         )
 

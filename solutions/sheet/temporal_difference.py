@@ -286,6 +286,11 @@ with evaluate(False):
     WRONG_SIGN = Misconception(
         "sign-of-td-error", "The TD error is target minus old value, so that the value moves towards the target."
     )
+    TARGET_FOR_VALUE = Misconception(
+        "target-for-value",
+        "The target is not the new value: the old value moves only the step α of the way to it.",
+        when=_given("alpha"),
+    )
     TD_ZERO = Formula(
         "td-zero",
         V(S(t)),
@@ -298,6 +303,7 @@ with evaluate(False):
             FORGOT_GAMMA: V(S(t)) + alpha * (r(t + 1) + V(S(t + 1)) - V(S(t))),
             TARGET_ONLY: V(S(t)) + alpha * (r(t + 1) + gamma * V(S(t + 1))) - V(S(t)),
             WRONG_SIGN: V(S(t)) + alpha * (V(S(t)) - (r(t + 1) + gamma * V(S(t + 1)))),
+            TARGET_FOR_VALUE: r(t + 1) + gamma * V(S(t + 1)),
         },
     )
 
