@@ -181,6 +181,31 @@ def exchanged(expression: Expr) -> Expr:
     return kind(*arguments, evaluate=False)
 
 
+@lru_cache(maxsize=1024)
+def whole_roots(expression: Expr, by: str) -> Expr:
+    """The derivatives of roots of a letter without their factor 1/2."""
+    if not expression.args:
+        return expression
+    arguments = [whole_roots(argument, by) for argument in expression.args]
+    roots = (each.base for each in arguments if each.is_Pow and each.exp == sympy.S.Half)
+    if expression.is_Mul and any(root.has(symbol(by)) for root in roots):
+        arguments = [each for each in arguments if each != 2]
+    return expression.func(*arguments, evaluate=False)
+
+
+@lru_cache(maxsize=1024)
+def plain_cosines(expression: Expr) -> Expr:
+    """The derivatives of tangents with the cosine for its square: 1/cos φ for 1 + tan² φ."""
+    if not expression.args:
+        return expression
+    tangents = {each for each in expression.args if each.has(sympy.tan)} if expression.is_Add else set()
+    if len(tangents) == 1 and len(expression.args) == 2:
+        factor, square = tangents.pop().as_coeff_Mul()
+        if factor in expression.args and square.is_Pow and square.exp == 2 and isinstance(square.base, sympy.tan):
+            return factor / sympy.cos(*square.base.args, evaluate=False)
+    return expression.func(*map(plain_cosines, expression.args), evaluate=False)
+
+
 def texts(mapping: Mapping[str, str]) -> Texts:
     """A mapping of texts in a form that can be remembered."""
     return tuple(mapping.items())

@@ -117,6 +117,27 @@ def _exchanged(given: System) -> list[AnyMatrix]:
     return list(linearised(given, Work(), rule=lambda *of: dynamics.exchanged(dynamics.chained(*of))))
 
 
+@kept
+def _without_halves(given: System) -> list[AnyMatrix]:
+    """Roots differentiated without the factor 1/2."""
+
+    def rule(text: str, by: str, parts: tuple[str, ...]) -> Expr:
+        return dynamics.whole_roots(dynamics.chained(text, by, parts), by)
+
+    return list(linearised(given, Work(), rule=rule))
+
+
+@kept
+def _without_squares(given: System) -> list[AnyMatrix]:
+    """Tangents differentiated to 1/cos."""
+    return list(linearised(given, Work(), rule=lambda *of: dynamics.plain_cosines(dynamics.chained(*of))))
+
+
+def _holds(given: System, function: str) -> bool:
+    """Whether the dynamics hold a function."""
+    return any(f"{function}(" in text for text in (*given.dynamics.values(), *given.where.values()))
+
+
 def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception, ...]:
     """What goes wrong in differentiating, made in a solver."""
     return (
@@ -130,6 +151,16 @@ def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception
             "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
             when=lambda given: _changes(given, _exchanged),
         )(lambda given, work: solve(given, work, _in_order(_exchanged))),
+        slip(
+            "half-of-the-root-forgotten",
+            "The derivative of √x is 1/(2√x), with its factor 1/2.",
+            when=lambda given: _holds(given, "sqrt") and _changes(given, _without_halves),
+        )(lambda given, work: solve(given, work, _in_order(_without_halves))).where_it_shows(),
+        slip(
+            "tangent-without-square",
+            "The derivative of tan φ is 1/cos² φ = 1 + tan² φ: the cosine is squared.",
+            when=lambda given: _holds(given, "tan") and _changes(given, _without_squares),
+        )(lambda given, work: solve(given, work, _in_order(_without_squares))).where_it_shows(),
     )
 
 

@@ -30,8 +30,12 @@ def solve(given: Given, work: Work) -> None:
     _filter(given, work, (_moved, _weighed))
 
 
-def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool = False) -> None:
-    """Make these moves in every step; ``afresh`` begins each step with the first belief again."""
+def _filter(
+    given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool = False, unweighed: bool = False
+) -> None:
+    """Make these moves in every step; ``afresh`` begins each step with the first belief again, ``unweighed`` with
+    what was believed before the last measurement.
+    """
     states = tuple(given.belief)
     start = knowns.values(given.belief)
     known: dict[str, Any] = {
@@ -65,6 +69,8 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         if asked:
             work.picture(before_and_after, before, belief)
             belief = work.answer(belief)
+        if unweighed:
+            belief = _moved(work, event, before, now)
     if given.ahead is not None:
         _told(work, given.ahead)
         belief = _moved(work, given.ahead, start if afresh else belief, known)
@@ -124,6 +130,21 @@ def prior_again(given: Given, work: Work) -> None:
 
 
 @slip(
+    "measurement-forgotten-after",
+    "Every step goes on from the belief after the measurement before it, not from the prediction.",
+    when=lambda given: any(event.measurement for event in _before_others(given)),
+)
+def unweighed(given: Given, work: Work) -> None:
+    """Every step from the prediction of the step before."""
+    _filter(given, work, (_moved, _weighed), unweighed=True)
+
+
+def _before_others(given: Given) -> Sequence[Event]:
+    """The steps that another one follows."""
+    return given.run if given.ahead is not None else given.run[:-1]
+
+
+@slip(
     "motion-skipped",
     "An action moves the belief, too: first sum over the states that the robot may come from.",
 )
@@ -135,6 +156,7 @@ def motion_skipped(given: Given, work: Work) -> None:
 MISCONCEPTIONS = (
     order_swapped,
     prior_again,
+    unweighed.where_it_shows(),
     *(each.where_it_shows() for each in (motion_skipped, BELIEF_NOT_NORMALISED, PREDICTION_IGNORED)),
 )
 

@@ -59,7 +59,10 @@ def _totals(
 def _best(state: str, after: tuple[str, ...], R: Rewards, values: Mapping[str, Value], work: Work) -> tuple[str, ...]:
     """The next states that are best: each of them alone, in the formula, is worth most."""
     known: dict[str, Any] = {"edge_reward": R, "V": values}
-    worth = [work.value(PRINCIPLE_OF_OPTIMALITY, s=state, successors={state: (name,)}, **known) for name in after]
+    worth = [
+        work.value(PRINCIPLE_OF_OPTIMALITY, s=state, towards=name, successors={state: (name,)}, **known)
+        for name in after
+    ]
     return arg_max(after, worth)
 
 

@@ -1,5 +1,6 @@
 """The Jacobian column by column; the velocity from it; the determinant where it is square."""
 
+from itertools import pairwise
 from typing import Any
 
 from rldrill.problems.beyond_the_sheet.jacobian import Given
@@ -89,7 +90,22 @@ def transposed(given: Given, work: Work) -> None:
     work.answer(singular)
 
 
-MISCONCEPTIONS = (transposed, ABSOLUTE_ANGLES)
+@slip(
+    "absolute-rates",
+    "Each angular velocity is relative to the link before: a link turns with the sum of all up to its own.",
+    when=lambda given: given.velocity is None,
+)
+def absolute_rates(given: Given, work: Work) -> None:
+    """Every joint turns its own link alone, though J is right."""
+    J, _, *rest = right_answers(solve, given, work)
+    columns = [matrices.column(column) for column in zip(*work.answer(J).tolist(), strict=True)]
+    alone = [one - after for one, after in pairwise(columns)] + columns[-1:]
+    _velocity(given, work, matrices.matrix(zip(*(column.entries() for column in alone), strict=True)))
+    for singular in rest:
+        work.answer(singular)
+
+
+MISCONCEPTIONS = (transposed, ABSOLUTE_ANGLES, absolute_rates.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

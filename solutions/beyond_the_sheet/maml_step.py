@@ -11,6 +11,7 @@ from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.beyond_the_sheet import (
     FIRST_ORDER,
     FROM_ADAPTED,
+    HALF_KEPT,
     MAML_DERIVATIVE,
     MAML_FIRST_ORDER,
     MAML_GRADIENT,
@@ -20,7 +21,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (FIRST_ORDER, NOT_ADAPTED, FROM_ADAPTED.where_it_shows())
+MISCONCEPTIONS = (FIRST_ORDER, NOT_ADAPTED, FROM_ADAPTED.where_it_shows(), HALF_KEPT.where_it_shows())
 
 
 def solve(given: Given, work: Work) -> None:

@@ -1,6 +1,6 @@
 """Double Q-learning along a run: one table selects the next action, the other one says what it is worth."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rldrill.problems.control.double_q_learning import Given
@@ -37,17 +37,31 @@ def both_updated(given: Given, work: Work) -> None:
     _learn(given, work, lambda turn: (3 - turn, turn))
 
 
+@slip(
+    "next-action-taken",
+    "The target takes the best action of the table that is updated; the action taken there would be Sarsa's.",
+    when=lambda given: len(given.trajectory.actions) > 1,
+)
+def next_taken(given: Given, work: Work) -> None:
+    """The action that the agent takes next, where that is known."""
+    _learn(given, work, lambda turn: (turn,), selected=given.trajectory.actions[1:])
+
+
 MISCONCEPTIONS = (
     SAME_TABLE_EVALUATES,
     OTHER_TABLE_SELECTS,
     ROLES_EXCHANGED.where_it_shows(),
     NOT_DISCOUNTED,
     both_updated,
+    next_taken.where_it_shows(),
 )
 
 
-def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) -> None:
-    """Every transition updates the tables that ``updated`` makes of the one that the coin says."""
+def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]], selected: Sequence[str] = ()) -> None:
+    """Every transition updates the tables that ``updated`` makes of the one that the coin says.
+
+    The actions that are ``selected`` in the first next states take the place of those that the table selects.
+    """
     run = given.trajectory
     known = knowns.action_run(given)
     work.say("$Q_i$ is the table that is updated, $Q_j$ the other one.")
@@ -58,7 +72,8 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
         ended = run.states[time + 1] in run.terminal
         last = " and ends the episode, so nothing comes after its reward" if ended else ""
         work.say(f"The transition at $t = {time}$ updates $Q_{turn}${last}:")
-        tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
+        chosen = selected[time] if time < len(selected) else None
+        tables = tables | {(table, *pair): _update(work, table, time, tables, known, chosen) for table in updated(turn)}
         if given.outcome and time == len(given.updates) - 1:
             worth = {pair: tables[turn, *pair] for pair in given.updated}
             find(given, given.outcome, work, worth, given.values if turn == 1 else given.second, f"Q_{turn}")
@@ -70,10 +85,12 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
                 tables = tables | {(table, *pair): value for pair, value in answer.items()}
 
 
-def _update(work: Work, table: int, time: int, tables: dict[Any, Any], known: dict[str, Any]) -> Any:
+def _update(
+    work: Work, table: int, time: int, tables: dict[Any, Any], known: dict[str, Any], chosen: str | None
+) -> Any:
     known = {**known, "i": table, "j": 3 - table, "t": time, "Qi": tables}
-    best = NO_ACTION
-    if known["actions"][known["S"][time + 1]] != (NO_ACTION,):
+    best = chosen or NO_ACTION
+    if chosen is None and known["actions"][known["S"][time + 1]] != (NO_ACTION,):
         best, *_ = work.step(DOUBLE_Q_ACTION, **known)
         after = known["S"][time + 1]
         worth = tables[3 - table, after, best]

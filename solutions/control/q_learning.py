@@ -4,10 +4,24 @@ from rldrill.problems.control.q_learning import Given
 from rldrill.solutions.asking_back import oracle_along
 from rldrill.solutions.learning import learn
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.control import MEAN_FOR_MAX, NOT_DISCOUNTED, Q_LEARNING, Q_LEARNING_TD_ERROR, TAKEN_FOR_MAX
+from rldrill.solutions.sheet.control import (
+    MAX_OF_OLD_STATE,
+    MEAN_FOR_MAX,
+    NOT_DISCOUNTED,
+    Q_LEARNING,
+    Q_LEARNING_TD_ERROR,
+    TAKEN_FOR_MAX,
+    TARGET_FOR_PAIR,
+)
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, NOT_DISCOUNTED)
+MISCONCEPTIONS = (
+    TAKEN_FOR_MAX,
+    MEAN_FOR_MAX,
+    NOT_DISCOUNTED,
+    MAX_OF_OLD_STATE.where_it_shows(),
+    TARGET_FOR_PAIR.where_it_shows(),
+)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -5,10 +5,17 @@ from rldrill.solutions.asking_back import oracle_along
 from rldrill.solutions.learning import learn
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.control import MAX_FOR_TAKEN, SARSA, SARSA_FORGOT_GAMMA, SARSA_TD_ERROR, STATE_FOR_NEXT
+from rldrill.solutions.sheet.control import (
+    MAX_FOR_TAKEN,
+    SARSA,
+    SARSA_FORGOT_GAMMA,
+    SARSA_TD_ERROR,
+    STATE_FOR_NEXT,
+    TARGET_FOR_PAIR,
+)
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (MAX_FOR_TAKEN, STATE_FOR_NEXT, SARSA_FORGOT_GAMMA)
+MISCONCEPTIONS = (MAX_FOR_TAKEN, STATE_FOR_NEXT, SARSA_FORGOT_GAMMA, TARGET_FOR_PAIR.where_it_shows())
 
 
 def solve(given: Given, work: Work) -> None:

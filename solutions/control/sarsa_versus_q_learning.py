@@ -208,6 +208,20 @@ def update_for_target(given: Given, work: Work) -> None:
 
 
 @slip(
+    "one-table-for-both",
+    "Each method has a copy of the table of its own: Q-learning goes on from the values that it has moved itself.",
+    when=_states_the_step_size,
+)
+def one_table(given: Given, work: Work) -> None:
+    """Q-learning's targets are read from the table that Sarsa moves."""
+    sarsa = _along(given, work, SARSA_TARGET)
+    work.answer(tuple(target for _, target in sarsa))
+    times = enumerate(known for known, _ in sarsa)
+    work.answer(tuple(work.step(Q_LEARNING_TARGET, t=time, **known) for time, known in times))
+    _name(given, work, None)
+
+
+@slip(
     "old-table-of-q-learning",
     "Q-learning moves its table after every transition, and its later targets read the values that it has moved.",
     when=_asks_back,
@@ -255,6 +269,7 @@ def said_neither(given: Given, work: Work) -> None:
 MISCONCEPTIONS = (
     targets_swapped,
     update_for_target,
+    one_table.where_it_shows(),
     old_table,
     SARSA_TARGET_FORGOT_GAMMA,
     Q_LEARNING_TARGET_FORGOT_GAMMA,

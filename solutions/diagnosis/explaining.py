@@ -1,9 +1,11 @@
 """What an answer comes from: the causes that give it, weighed against each other and against chance."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from msgspec import Struct
+from sympy import Expr
 
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
@@ -42,15 +44,17 @@ def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[s
     if not found:
         return Explained()
     causes = [each.cause for each in found]
-    told = likeliest(Weighing(outcomes, typed, found).shares(), distinct(causes))
+    shares = Weighing(outcomes, typed, found).shares()
+    groups = [sorted(group, key=lambda one: (causes[one].mistake is None, -shares[one])) for group in distinct(causes)]
+    told = likeliest(shares, groups)
     if sum(share for share, _ in told) < ENOUGH or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
 
 
 def likeliest(shares: Sequence[float], groups: Sequence[Sequence[int]]) -> list[tuple[float, int]]:
-    """What is told, the likeliest first: how likely it is, and the number of the cause that stands for its group."""
-    found = [(sum(shares[one] for one in group), max(group, key=shares.__getitem__)) for group in groups]
+    """What is told, the likeliest first: how likely it is, and the cause that stands for its group, the first of it."""
+    found = [(sum(shares[one] for one in group), group[0]) for group in groups]
     found.sort(key=lambda each: -each[0])
     told = [each for each in found[:MOST] if each[0] >= NEAR * found[0][0]]
     return sorted(told, key=lambda each: -shares[each[1]])
@@ -94,6 +98,25 @@ def _alike(one: Cause, two: Cause) -> bool:
     for zero, other in ((one, two), (two, one)):
         if zero.kind == "elsewhere" and zero.other == 0 and other.kind.endswith("left-out"):
             return True
+    if one.mistake and two.mistake:
+        return one.mistake.says == two.mistake.says
     if one.mistake or two.mistake:
-        return bool(one.mistake and two.mistake and one.mistake.says == two.mistake.says)
+        return _is_stated(one, two) or _is_stated(two, one)
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
+
+
+def _is_stated(mistake: Cause, edit: Cause) -> bool:
+    """Whether a mistake is stated beside the formula that was edited, and reads it as the edit does."""
+    if mistake.mistake is None or edit.edit is None or edit.formula is None or edit.term or edit.nth is not None:
+        return False
+    stated = edit.formula.misread.get(mistake.mistake)
+    return stated is not None and _collected(stated) == _collected(edit.edit.right)
+
+
+@cache
+def _collected(expression: Expr) -> Expr:
+    """An expression in the order and with the signs that sympy gives it, whatever it was written like."""
+    if not expression.args:
+        return expression
+    collected: Expr = expression.func(*map(_collected, expression.args))
+    return collected

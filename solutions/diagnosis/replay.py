@@ -128,7 +128,7 @@ Traced: TypeAlias = tuple[int, Expr, Mapping[str, Any], Any]
 class Replay(Work):
     """A notebook in which the change is made, and nothing is written down.
 
-    The values of ``same``, the applications before the first one that is changed, are not computed again.
+    The values of ``before``, the applications before the first one that is changed, are not computed again.
     """
 
     def __init__(
@@ -137,11 +137,11 @@ class Replay(Work):
         carried: Mapping[str, Any],
         limit: int,
         trace: list[Traced] | None = None,
-        same: Sequence[Application] = (),
+        before: Sequence[Application] = (),
     ) -> None:
         super().__init__(carried=carried)
         self.change = change
-        self.same = same
+        self.before = before
         self.trace = trace
         self.limit = limit
         self.number = 0
@@ -153,7 +153,7 @@ class Replay(Work):
         """The right side, exchanged if it is among those."""
         self._count()
         if formula.right in self.change.rights:
-            self.same = ()  # what comes now can depend on it, though no step says so
+            self.before = ()  # what comes now can depend on it, though no step says so
         return self.change.rights.get(formula.right, formula.right)
 
     def step(self, formula: Formula, *, right: Any = None, **known: Any) -> Any:
@@ -161,8 +161,8 @@ class Replay(Work):
         for written in ("into", "sign", "label"):
             known.pop(written, None)
         number, self.number = self.number, self.number + 1
-        if number < len(self.same):
-            return self.same[number].value
+        if number < len(self.before):
+            return self.before[number].value
         if number in self.change.values:
             self._count()
             self._again[_same(formula, known)] = value = self.change.values[number]
@@ -195,9 +195,9 @@ class Replay(Work):
     ) -> Any:
         """The solution, changed where its values are."""
         cases = list(cases)
-        if 0 < self.number + len(cases) <= len(self.same):
+        if 0 < self.number + len(cases) <= len(self.before):
             self.number += len(cases)
-            return dict(self.same[self.number - 1].known[unknown.code])
+            return dict(self.before[self.number - 1].known[unknown.code])
         solution = super().system(formula, unknown, cases, **named, **self._letters(named))
         for case in cases:
             if self.number in self.change.values:

@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
-from sympy import Expr
+from sympy import Expr, Mul, preorder_traversal
 
 from rldrill.problems.mathematics import Math, name, relation, row
 from rldrill.solutions.diagnosis.alternatives import numbers, terms
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.givens import ORDINALS
 from rldrill.solutions.diagnosis.replay import Application
-from rldrill.solutions.formula.edits import IN_ONE_TERM
+from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, flat
 from rldrill.solutions.formula.letters import GLYPHS
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.putting_in import indexed
@@ -72,6 +72,8 @@ _EDITS = {
     "max-for-product": "the maximum is taken instead of the product",
     "min-for-product": "the minimum is taken instead of the product",
 }
+#: What is done to a factor, which a formula may hold twice: then it is told in which product.
+_OF_FACTORS = frozenset(("factor-left-out", "squared", "squared-value", "complement", "complement-of-value", "divided"))
 #: What happened to the value of a place in a formula; {was} was right, {became} was taken.
 _INSIDE = {
     "minus-lost": "the minus of {part} = {was} is lost",
@@ -140,7 +142,8 @@ def _what(cause: Cause) -> Words:
         if cause.kind == "factor-left-out" and not cause.edit.part.is_Symbol:
             template = "the factor {part} is missing"
         instead = None if cause.edit.instead is None else typeset(cause.edit.instead)
-        return _filled(template, part=_short(cause.edit.part) if "{part}" in template else None, instead=instead)
+        words = _filled(template, part=_short(cause.edit.part) if "{part}" in template else None, instead=instead)
+        return (*words, *_in_which_product(cause))
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
         part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
@@ -156,6 +159,35 @@ def _what(cause: Cause) -> Words:
     was = None if cause.was is None else _number(cause.was)
     words = _filled(template, what=cause.what.replace("_", " "), was=was)
     return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words
+
+
+def _in_which_product(cause: Cause) -> Words:
+    """Where a factor stands that the formula holds more than once: the product from there on."""
+    formula = cause.formula if cause.application is None else cause.application
+    if cause.kind not in _OF_FACTORS or cause.edit is None or formula is None:
+        return ()
+    right = flat(formula.right)
+    if sum(part == cause.edit.part for part in preorder_traversal(right)) < 2:
+        return ()
+    product = _edited(right, cause.edit)
+    if not product.is_Mul or cause.edit.part not in product.args:
+        return ()
+    place = min(product.args.index(cause.edit.part), len(product.args) - 2)
+    return (" in ", typeset(Mul(*product.args[place:], evaluate=False)))
+
+
+def _edited(right: Expr, edit: Edit) -> Expr:
+    """The smallest part of a right side that holds all that was changed in it."""
+    one, other = right, edit.right
+    while one.func is other.func and len(one.args) == len(other.args):
+        differing = [pair for pair in zip(one.args, other.args, strict=True) if pair[0] != pair[1]]
+        if len(differing) != 1:
+            break
+        inside, instead = differing[0]
+        if inside == edit.part:
+            break
+        one, other = inside, instead
+    return one
 
 
 def _filled(template: str, **values: Any) -> Words:

@@ -12,7 +12,7 @@ from rldrill.solutions.answers.judging import wrong_cells
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis.replay import UNDONE
-from rldrill.solutions.exact import enclosure, is_rational
+from rldrill.solutions.exact import enclosure, is_rational, is_zero, to_sympy
 
 #: Where answers with an open parameter are compared at first.
 _POINT = fmpq(37, 101)
@@ -59,7 +59,17 @@ def may_mean(cell: Cell, value: Any) -> bool:
     if not is_rational(cell.value):
         return not is_rational(value)
     above, below = abs(cell.value.p), cell.value.q
-    return equal(cell.value, value) or below >= _LONG or (below == 1 and above >= _LONG)
+    return below >= _LONG or (below == 1 and above >= _LONG) or _same(cell.value, value)
+
+
+def _same(number: fmpq, value: Any) -> bool:
+    """Whether a value is a rational number, perhaps written otherwise, ln 16/ln 2."""
+    if is_rational(value):
+        return bool(number == value)
+    try:
+        return near(approximate(number), approximate(value)) and is_zero(value - to_sympy(number))
+    except UNDONE:
+        return False
 
 
 def reach(size: float) -> tuple[float, float]:

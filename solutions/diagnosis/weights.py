@@ -61,6 +61,7 @@ ALIKE = (
     {"kept", "summand-left-out", "factor-left-out", "term-left-out"},
     {"halved", "doubled"},
     {"exchanged-cells", "rows-exchanged"},
+    {"reversed", "entries-exchanged"},
     {"twin", "elsewhere", "index"},
     {"other-taken", "min-for-max", "elsewhere", "choice"},
 )

@@ -5,6 +5,7 @@ from typing import Any
 import sympy
 
 from rldrill.problems.dynamic_programming.contraction import Given
+from rldrill.problems.exact import needed
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import ONE, NoSolution, Value, exact, near, sign, to_sympy
@@ -115,7 +116,32 @@ def stops_short(given: Given, work: Work) -> None:
         work.answer(max(_sweeps(work, known, exact(given.accuracy)) - 1, 0))
 
 
-MISCONCEPTIONS = (FORGOT_DISTANCE, ONE_POWER_SHORT, SUM_FOR_MAX, CHANGE_FOR_ERROR, stops_short)
+def _met_exactly(given: Given, work: Work, known: dict[str, Any]) -> bool:
+    """Whether the bound of the first number of sweeps that is enough is the accuracy itself."""
+    accuracy = exact(needed(given.accuracy))
+    return bool(work.value(CONTRACTION, k=_sweeps(work, known, accuracy), **known) == accuracy)
+
+
+@slip(
+    "strictly-below",
+    "A bound that is just as large as the accuracy is enough: the error is to be at most that, not below it.",
+    when=lambda given: given.accuracy is not None and _met_exactly(given, work := Work(), _bounds(given, work)),
+)
+def strictly_below(given: Given, work: Work) -> None:
+    """The bound is to be below the accuracy."""
+    known = _bounds(given, work)
+    if given.accuracy is not None:
+        work.answer(_sweeps(work, known, exact(given.accuracy)) + _met_exactly(given, work, known))
+
+
+MISCONCEPTIONS = (
+    FORGOT_DISTANCE,
+    ONE_POWER_SHORT,
+    SUM_FOR_MAX,
+    CHANGE_FOR_ERROR,
+    stops_short,
+    strictly_below.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

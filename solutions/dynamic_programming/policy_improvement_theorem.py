@@ -117,9 +117,21 @@ def one_state(given: Given, work: Work) -> None:
     work.answer(1 in _gaps(given, work))
 
 
+@slip(
+    "action-of-the-first-policy",
+    "Q^π(s, π′(s)) begins with the action of π′; with that of π it would be V^π(s) itself.",
+    when=lambda given: given.policy != given.other,
+)
+def own_action(given: Given, work: Work) -> None:
+    """The first policy's action in every state: its own values again."""
+    values = _values(given, work, evaluated)
+    work.answer(-1 not in _compared(given, work, values, {pair: values[pair[0]] for pair in given.pairs}))
+
+
 MISCONCEPTIONS = (
     new_values,
     one_state,
+    own_action.where_it_shows(),
     one_sweep(solve),
     replace(FORGOT_GAMMA.where_it_shows(), when=lambda given: given.gamma != 1 and given.values is None),
 )

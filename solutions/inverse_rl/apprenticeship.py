@@ -31,15 +31,18 @@ def solve(given: Given, work: Work) -> None:
     _project(given, work, lambda projected, _: projected)
 
 
-def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Point]) -> None:
-    """The projection method; the weights point from ``weighed_from(projected point, policy)`` to the expert."""
+def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Point], *, afresh: bool = False) -> None:
+    """The projection method; the weights point from ``weighed_from(projected point, policy)`` to the expert, and
+    ``afresh`` begins each projection at the first point again.
+    """
     features = tuple(range(1, len(given.expert) + 1))
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
     several = len(policies) + bool(given.candidates and given.projected) > 1
     for number, mu in enumerate(policies, 1):
-        known |= {"mu_now": mu, "mu_bar": point, "label": f"π_{{{number}}}" if several else None}
+        start = _vector(given.first) if afresh else point
+        known |= {"mu_now": mu, "mu_bar": start, "label": f"π_{{{number}}}" if several else None}
         length = _length(work, known)
         if number == 1 and not given.candidates:
             length = work.answer(length)
@@ -51,7 +54,8 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     if given.candidates:
         mu = _next(given.candidates, work, weights)
     if given.candidates and given.projected:
-        known |= {"mu_now": mu, "mu_bar": point, "label": f"π_{{{len(policies) + 1}}}"}
+        start = _vector(given.first) if afresh else point
+        known |= {"mu_now": mu, "mu_bar": start, "label": f"π_{{{len(policies) + 1}}}"}
         moved = work.answer(_moved(work, features, known, _length(work, known)))
         point = dict(zip(features, moved, strict=True))
         known["mu_bar"] = weighed_from(point, mu)
@@ -102,7 +106,22 @@ def not_projected(given: Given, work: Work) -> None:
     _project(given, work, lambda _, policy: policy)
 
 
-MISCONCEPTIONS = (not_projected, DISTANCE_SQUARED.where_it_shows(), OTHER_END.where_it_shows())
+@slip(
+    "from-the-first-point",
+    "Every projection starts from the point μ̄ that was found last, not from μ(π₀) again.",
+    when=lambda given: len(given.policies) + bool(given.candidates and given.projected) > 1,
+)
+def from_first(given: Given, work: Work) -> None:
+    """Each policy projected with the first point at the other end."""
+    _project(given, work, lambda projected, _: projected, afresh=True)
+
+
+MISCONCEPTIONS = (
+    not_projected,
+    from_first.where_it_shows(),
+    DISTANCE_SQUARED.where_it_shows(),
+    OTHER_END.where_it_shows(),
+)
 
 
 def _vector(values: tuple[Any, ...]) -> Point:

@@ -20,6 +20,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.riccati import Regulator, stationary
 from rldrill.solutions.sheet.linear_methods import (
+    LOOP_WITH_PLUS,
     OTHER_ROOT,
     POSITIVE_S,
     Modes,
@@ -412,6 +413,7 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
 MISCONCEPTIONS = (
     OTHER_ROOT,
     POSITIVE_S,
+    LOOP_WITH_PLUS.where_it_shows(),
     linear_quadratic.cost_to_go(solve, lambda _: slice(1)),
 )
 

@@ -15,6 +15,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import with_found
 from rldrill.solutions.sheet.linear_methods import (
     ACTION_FIRST,
+    ACTION_NOT_SQUARED,
     ACTION_SIGN,
     COST_FOR_REWARD,
     DYNAMICS,
@@ -33,6 +34,7 @@ MISCONCEPTIONS = (
     replace(REWARD_WITHOUT_R, when=lambda given: given.total is None),
     ACTION_FIRST,
     ACTION_SIGN.where_it_shows(),
+    ACTION_NOT_SQUARED.where_it_shows(),
 )
 
 

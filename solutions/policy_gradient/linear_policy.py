@@ -72,7 +72,7 @@ def smallest(given: Given, work: Work) -> None:
     _greedy(given, work, _values(given, work, known))
 
 
-MISCONCEPTIONS = (wrong_action, WEIGHTS_FORGOTTEN, smallest)
+MISCONCEPTIONS = (smallest, wrong_action, WEIGHTS_FORGOTTEN)
 
 
 def oracle(given: Given) -> Answers:

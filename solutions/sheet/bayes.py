@@ -4,7 +4,7 @@ from functools import cache
 from typing import Any
 
 from msgspec.structs import replace
-from sympy import Pow, evaluate, factorial, log, sqrt
+from sympy import Pow, Rational, evaluate, factorial, log, sqrt
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -301,6 +301,11 @@ with evaluate(False):
         "The gain weighs the innovation z − μ̄: start from the predicted mean and go K of the way to the measurement.",
         when=_on_a_line,
     )
+    PREDICTION_AND_READING_ALIKE = Misconception(
+        "prediction-and-reading-alike",
+        "Prediction and measurement do not count alike: go the share K of the way, not half of it.",
+        when=_on_a_line,
+    )
     KALMAN_MEAN = Formula(
         "kalman-mean",
         mean(t),
@@ -311,6 +316,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             GAIN_ON_PREDICTION: read(t) + Kt(t) * (mean_bar(t) - read(t)),
+            PREDICTION_AND_READING_ALIKE: Rational(1, 2) * (mean_bar(t) + read(t)),
         },
     )
     SHARE_TAKEN = Misconception(
@@ -443,6 +449,9 @@ with evaluate(False):
         )
         for name_, axis in (("x", abscissa), ("y", ordinate))
     )
+    NOT_CENTRED = Misconception(
+        "not-centred", "In both sums the means are subtracted first: (xᵢ − x̄)(yᵢ − ȳ) over (xᵢ − x̄)²."
+    )
     PRODUCTS = Formula(
         "line-products",
         S_xy,
@@ -453,6 +462,9 @@ with evaluate(False):
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x and y is from its mean, multiply and add.",
         place=Place.WORKING,
+        misread={
+            NOT_CENTRED: SumOver(value_of(abscissa, i) * value_of(ordinate, i), i, Counting(1, n)),
+        },
     )
     SQUARES = Formula(
         "line-squares",
@@ -462,6 +474,9 @@ with evaluate(False):
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x is from its mean, square and add.",
         place=Place.WORKING,
+        misread={
+            NOT_CENTRED: SumOver(value_of(abscissa, i) ** 2, i, Counting(1, n)),
+        },
     )
     LINE_SLOPE = Formula(
         "line-slope",
@@ -590,6 +605,7 @@ with evaluate(False):
     HALF_FIT = Misconception("two-forgotten", "The log-likelihood is multiplied by −2, not by −1.")
     BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs ln n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
+    BIC_LOG_2 = Misconception("log-base-2", "The logarithms of the BIC are natural, to the base e, not to the base 2.")
     BIC = Formula(
         "bic",
         bic(M),
@@ -602,6 +618,7 @@ with evaluate(False):
             BIC_SIGN: 2 * log_likelihood + k * log(n),
             BIC_WITHOUT_LOG: -2 * log_likelihood + k * n,
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
+            BIC_LOG_2: (-2 * log_likelihood + k * log(n)) / log(2),
             HALF_FIT: -log_likelihood + k * log(n),
         },
     )

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import cache
 
 from msgspec.structs import replace
-from sympy import Add, Expr, Pow, cos, evaluate, sin
+from sympy import Add, Expr, Pow, Rational, cos, evaluate, sin
 
 from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -75,6 +75,9 @@ with evaluate(False):
         hint="Add the links as vectors; along y each contributes its length times the sine of its angle.",
         place=Place.BEYOND,
     )
+    OWN_LINK_ALONE = Misconception(
+        "own-link-alone", "A joint moves every link from its own on to the end, not its own link alone."
+    )
     JACOBIAN_X = Formula(
         "jacobian-x",
         Jx(j),
@@ -83,6 +86,9 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 3.2.1",
         hint="Joint j moves the links from j on; differentiate their part of x with respect to its angle.",
         place=Place.BEYOND,
+        misread={
+            OWN_LINK_ALONE: -length(j) * sin(phi(j)),
+        },
     )
     JACOBIAN_Y = Formula(
         "jacobian-y",
@@ -92,6 +98,9 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 3.2.1",
         hint="Joint j moves the links from j on; differentiate their part of y with respect to its angle.",
         place=Place.BEYOND,
+        misread={
+            OWN_LINK_ALONE: length(j) * cos(phi(j)),
+        },
     )
     END_POINT_VELOCITY = Formula(
         "jacobian",
@@ -299,6 +308,9 @@ outer_gradient = letter("outerGradient", _slope(variable("J")))
 Tasks = letter("tasks", "N")
 
 with evaluate(False):
+    HALF_KEPT = Misconception(
+        "half-kept", "The derivative of c/2·(θ − m)² is c(θ − m): the 2 of the power and the 1/2 cancel."
+    )
     MAML_INNER = Formula(
         "maml-inner",
         adapted(i),
@@ -309,6 +321,9 @@ with evaluate(False):
         also=(theta0 - alpha * inner_gradient(i),),
         note="For losses $L_i(θ) = c_i/2 (θ − m_i)^2$.",
         place=Place.BEYOND,
+        misread={
+            HALF_KEPT: theta0 - Rational(1, 2) * alpha * curvature(i) * (theta0 - optimum(i)),
+        },
     )
     MAML_DERIVATIVE = Formula(
         "maml-derivative",
@@ -318,6 +333,9 @@ with evaluate(False):
         source="Finn, Abbeel & Levine 2017, section 2.2",
         hint="Differentiate θ′ = θ − αc(θ − m) with respect to θ.",
         place=Place.WORKING,
+        misread={
+            HALF_KEPT: 1 - Rational(1, 2) * alpha * curvature(i),
+        },
     )
     MAML_GRADIENT = Formula(
         "maml-gradient",
@@ -327,6 +345,9 @@ with evaluate(False):
         source="Finn, Abbeel & Levine 2017, eq. 1",
         hint="The chain rule: the derivative of every adapted parameter, times that of its loss.",
         place=Place.WORKING,
+        misread={
+            HALF_KEPT: SumOver(Rational(1, 2) * curvature(i) * (adapted(i) - optimum(i)) * adapted_slope(i), i, Tasks),
+        },
     )
     MAML_FIRST_ORDER = Formula(
         "maml-first-order",
@@ -337,6 +358,9 @@ with evaluate(False):
         hint="The gradient of every loss at the adapted parameter, as if this did not depend on θ.",
         sign="←",
         place=Place.WORKING,
+        misread={
+            HALF_KEPT: theta0 - beta * SumOver(Rational(1, 2) * curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
+        },
     )
     FIRST_ORDER = Misconception(
         "first-order",
@@ -363,6 +387,13 @@ with evaluate(False):
         misread={
             FIRST_ORDER: theta0 - beta * SumOver(curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
             NOT_ADAPTED: theta0 - beta * SumOver(curvature(i) * (theta0 - optimum(i)), i, Tasks),
+            HALF_KEPT: theta0
+            - beta
+            * SumOver(
+                (1 - Rational(1, 2) * alpha * curvature(i)) * Rational(1, 2) * curvature(i) * (adapted(i) - optimum(i)),
+                i,
+                Tasks,
+            ),
             FROM_ADAPTED: adapted(1)
             - beta * SumOver((1 - alpha * curvature(i)) * curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
         },

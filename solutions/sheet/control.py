@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from msgspec.structs import replace
 from sympy import Expr, evaluate, exp, log, sqrt
 
 from rldrill.problems.mathematics import (
@@ -55,6 +56,7 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
+from rldrill.solutions.sheet.temporal_difference import TARGET_FOR_VALUE
 
 
 def _starred(head: str) -> Script:
@@ -125,6 +127,7 @@ with evaluate(False):
         "The value of the next pair of state and action is discounted by γ.",
         when=lambda given: not asks_for(given, "gamma"),
     )
+    TARGET_FOR_PAIR = replace(TARGET_FOR_VALUE, when=lambda given: not asks_for(given, "alpha"))
     SARSA = Formula(
         "sarsa",
         Q(S(t), A(t)),
@@ -137,6 +140,7 @@ with evaluate(False):
             MAX_FOR_TAKEN: _moved(_Q_LEARNING_TARGET),
             STATE_FOR_NEXT: _moved(r(t + 1) + gamma * Q(S(t), A(t + 1))),
             SARSA_FORGOT_GAMMA: _moved(_WITHOUT_GAMMA),
+            TARGET_FOR_PAIR: _SARSA_TARGET,
         },
     )
 
@@ -173,6 +177,9 @@ with evaluate(False):
         title="TD error of Sarsa",
         source="Sutton & Barto 2018, section 12.7",
         hint="Sarsa's target minus the old value of the pair just left.",
+        misread={
+            MAX_FOR_TAKEN: _Q_LEARNING_TARGET - Q(S(t), A(t)),
+        },
     )
     TRACE_WITHOUT_LAMBDA = Misconception(
         "decay-without-lambda",
@@ -238,6 +245,10 @@ with evaluate(False):
     MEAN_FOR_MAX = Misconception(
         "mean-for-max", "Q-learning takes the greatest action value of the next state, not the mean."
     )
+    MAX_OF_OLD_STATE = Misconception(
+        "max-over-state-left",
+        "The greatest action value is taken in the next state, not in the state that is left.",
+    )
     Q_LEARNING = Formula(
         "q-learning",
         Q(S(t), A(t)),
@@ -250,6 +261,8 @@ with evaluate(False):
             TAKEN_FOR_MAX: _moved(_SARSA_TARGET),
             MEAN_FOR_MAX: _moved(_MEAN_TARGET),
             NOT_DISCOUNTED: _moved(_MAX_WITHOUT_GAMMA),
+            MAX_OF_OLD_STATE: _moved(r(t + 1) + gamma * MaxOver(Q(S(t), a), a, Actions(S(t)))),
+            TARGET_FOR_PAIR: _Q_LEARNING_TARGET,
         },
     )
 

@@ -74,6 +74,10 @@ def _goes_on(given: Any) -> bool:
 
 
 with evaluate(False):
+    CITY_BLOCK = Misconception(
+        "sum-of-differences",
+        "The Euclidean distance is the root of the sum of squares, not the sum of the differences.",
+    )
     DISTANCE = Formula(
         "distance-to-centre",
         distance(i),
@@ -82,6 +86,9 @@ with evaluate(False):
         source="Euclidean norm",
         hint="Subtract coordinate by coordinate, square, add, and take the root.",
         place=Place.WORKING,
+        misread={
+            CITY_BLOCK: SumOver(Abs(position(j) - centre(i, j)), j, Dimensions),
+        },
     )
     DISTANCE_ON_A_LINE = Formula(
         "distance-on-a-line",
@@ -156,6 +163,9 @@ with evaluate(False):
             given.width not in (1, None) and any(0 < square < max(given.width, 1) ** 2 for square in _distances(given))
         ),
     )
+    TENT_SQUARED = Misconception(
+        "tent-squared", "The feature falls in a straight line: the distance itself counts, not its square."
+    )
     PIECEWISE_LINEAR_RBF = Formula(
         "piecewise-linear-rbf",
         phi(i, s),
@@ -166,6 +176,7 @@ with evaluate(False):
         misread={
             NOT_CLAMPED: 1 - distance(i) / width,
             WIDTH_FORGOTTEN: Greatest(Zero, 1 - distance(i)),
+            TENT_SQUARED: Greatest(Zero, 1 - (distance(i) / width) ** 2),
         },
     )
     TENT_INSIDE = Formula(

@@ -219,6 +219,10 @@ with evaluate(False):
         "first-of-round",
         "All rewards of a round come again and again, not only the first: each of them belongs to the series.",
     )
+    ONE_ROUND = Misconception(
+        "one-round-alone",
+        "After the first round the rewards go on for ever: the sum of one round is divided by 1 − γⁿ.",
+    )
     GEOMETRIC_SERIES = Formula(
         "geometric-series",
         G(t),
@@ -231,6 +235,7 @@ with evaluate(False):
             PLUS_FOR_MINUS: _FIRST * Pow(1 + gamma**n, -1),
             ROUND_OF_ONE: _FIRST * Pow(1 - gamma, -1),
             FIRST_OF_ROUND: r(t + 1) * Pow(1 - gamma, -1),
+            ONE_ROUND: _FIRST,
             FIRST_DISCOUNTED: gamma * _FIRST * Pow(1 - gamma**n, -1),
         },
     )

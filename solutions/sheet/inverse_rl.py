@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from sympy import Integer, Pow, evaluate, sqrt
+from sympy import Abs, Integer, Pow, evaluate, sqrt
 
 from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, name, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -235,6 +235,9 @@ with evaluate(False):
     OTHER_END = Misconception(
         "share-from-the-other-end", "The share c is counted from the old point μ̄, not from the new policy's μ(π)."
     )
+    BY_WAY_TO_EXPERT = Misconception(
+        "divided-by-way-to-expert", "Below the line stands the square of the way to the new policy, not to the expert."
+    )
     PROJECTION_LENGTH = Formula(
         "projection-length",
         step_length,
@@ -246,6 +249,8 @@ with evaluate(False):
         misread={
             OTHER_END: SumOver(_TOWARDS * (mu_now(i) - mu_expert(i)), i, Features)
             * Pow(SumOver(_TOWARDS**2, i, Features), -1),
+            BY_WAY_TO_EXPERT: SumOver(_TOWARDS * (mu_expert(i) - mu_bar(i)), i, Features)
+            * Pow(SumOver((mu_expert(i) - mu_bar(i)) ** 2, i, Features), -1),
         },
     )
     PROJECTION = Formula(
@@ -270,6 +275,9 @@ with evaluate(False):
     DISTANCE_SQUARED = Misconception(
         "distance-squared", "That is the square of the distance; the length of w is the root of the sum of squares."
     )
+    DISTANCE_AS_SUM = Misconception(
+        "distance-as-sum", "The length of w is the root of the sum of its squared entries, not their sum."
+    )
     REMAINING = Formula(
         "remaining-distance",
         remaining,
@@ -280,5 +288,6 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             DISTANCE_SQUARED: SumOver(w(i) ** 2, i, Features),
+            DISTANCE_AS_SUM: SumOver(Abs(w(i)), i, Features),
         },
     )

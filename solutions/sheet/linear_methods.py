@@ -92,6 +92,11 @@ with evaluate(False):
     )
     COST_FOR_REWARD = Misconception("cost-for-reward", "A reward is the cost with a minus sign: −(sᵀQs + aᵀRa).")
     REWARD_WITHOUT_R = Misconception("forgot-r", "The action has its price too: aᵀRa belongs in the bracket.")
+    ACTION_NOT_SQUARED = Misconception(
+        "action-not-squared",
+        "The price of the action is Ra²: the action is squared, as the state is.",
+        when=lambda given: len(given.R[0]) == 1,
+    )
     LQR_REWARD = Formula(
         "lqr-reward",
         rt(t),
@@ -102,6 +107,7 @@ with evaluate(False):
         misread={
             COST_FOR_REWARD: Transposed(St(t)) * Qt(t) * St(t) + Transposed(Ut(t)) * Rt(t) * Ut(t),
             REWARD_WITHOUT_R: -Transposed(St(t)) * Qt(t) * St(t),
+            ACTION_NOT_SQUARED: -(Transposed(St(t)) * Qt(t) * St(t) + Rt(t) * Ut(t)),
         },
     )
     LQR_TOTAL = Formula(
@@ -200,6 +206,19 @@ with evaluate(False):
             NO_TERMINAL: Qt(T) - Qt(T),
         },
     )
+    LOOP_WITHOUT_R = Misconception(
+        "closed-loop-without-action-price",
+        "The action that the gain takes has its price, too: with A − BL the term −LᵀRL belongs to P.",
+    )
+    LOOP_WITHOUT_R_IN_COSTS = Misconception(
+        "closed-loop-without-action-cost",
+        "The action that the gain takes has its price, too: in the form with the closed loop it is added to Q.",
+    )
+    NEXT_NOT_DISCOUNTED = Misconception(
+        "next-not-discounted",
+        "What comes after this step is discounted: γ stands wherever the next value does.",
+        when=lambda given: given.gamma != 1,
+    )
     LQR_RICCATI = Formula(
         "lqr-riccati",
         Pt(t),
@@ -208,6 +227,9 @@ with evaluate(False):
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="Work out Aᵀ P first: it stands in both products.",
         note="Cost-to-go: $S_t = Q_t + A_t^⊤ S_{t+1} A_t − A_t^⊤ S_{t+1} B_t L_t$.",
+        misread={
+            LOOP_WITHOUT_R: -Qt(t) + Transposed(At(t) - Bt(t) * Lt(t)) * Pt(t + 1) * (At(t) - Bt(t) * Lt(t)),
+        },
     )
 
 
@@ -218,8 +240,9 @@ def rollout(*, discounted: bool, crossed: bool) -> tuple[Formula, Formula]:
     with evaluate(False):
         both = (2 * Transposed(state) * Nt(t) * action,) if crossed else ()
         cost = Add(Transposed(state) * Qt(t) * state, *both, Transposed(action) * Rt(t) * action)
+        unsquared = {ACTION_NOT_SQUARED: -Add(Transposed(state) * Qt(t) * state, *both, Rt(t) * action)}
         return (
-            replace(LQR_REWARD, right=-cost, misread={}),
+            replace(LQR_REWARD, right=-cost, misread=unsquared),
             replace(
                 LQR_TOTAL,
                 right=SumOver(gamma**t * rt(t), t, Counting(0, T - 1)) + gamma**T * last_reward(T)
@@ -271,6 +294,9 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
             both, turned = (both + Transposed(N), turned + N) if notation.costs else (both - Transposed(N), turned - N)
             transposed = transposed + Transposed(N) if notation.costs else transposed - Transposed(N)
         forgot, ended = (FORGOT_R_IN_COSTS, NO_TERMINAL_COST) if notation.costs else (FORGOT_R, NO_TERMINAL)
+        loop, price = A - B * gain(t), (LOOP_WITHOUT_R_IN_COSTS if notation.costs else LOOP_WITHOUT_R)
+        looped = (Q if notation.costs else -Q) + Mul(*ahead, Transposed(loop), after, loop)
+        plain = quadratic(notation, discounted=False, crossed=crossed) if discounted else None
         return Quadratic(
             replace(
                 LQR_TERMINAL,
@@ -282,12 +308,15 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 LQR_GAIN,
                 left=gain(t),
                 right=Pow(bracket, -1) * both,
-                misread={forgot: Pow(square, -1) * both, TRANSPOSED_A: Pow(bracket, -1) * transposed},
+                misread={forgot: Pow(square, -1) * both, TRANSPOSED_A: Pow(bracket, -1) * transposed}
+                | ({NEXT_NOT_DISCOUNTED: plain.gain.right} if plain else {}),
             ),
             replace(
                 LQR_RICCATI,
                 left=value(t),
                 right=(Q if notation.costs else -Q) + Mul(*ahead, Transposed(A), after, A) - turned * gain(t),
+                misread=({} if crossed else {price: looped})
+                | ({NEXT_NOT_DISCOUNTED: plain.riccati.right} if plain else {}),
             ),
             replace(
                 LQR_ACTION,
@@ -295,8 +324,8 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 right=-gain(t) * state(t),
                 misread={ACTION_SIGN: gain(t) * state(t)},
             ),
-            replace(LQR_BRACKET, right=bracket),
-            replace(LQR_PRODUCT, right=both),
+            replace(LQR_BRACKET, right=bracket, misread={NEXT_NOT_DISCOUNTED: plain.bracket.right} if plain else {}),
+            replace(LQR_PRODUCT, right=both, misread={NEXT_NOT_DISCOUNTED: plain.product.right} if plain else {}),
             replace(LQR_SOLVED, left=gain(t)),
         )
 
@@ -378,6 +407,10 @@ with evaluate(False):
             POSITIVE_S: -Pow(-Transposed(Bi) * Pi * Bi - Ri, -1) * Transposed(Bi) * Pi * Ai,
         },
     )
+    LOOP_WITH_PLUS = Misconception(
+        "closed-loop-with-plus",
+        "The action is minus the gain times the state, so the closed loop is A minus B times it.",
+    )
     LQR_CLOSED_LOOP = Formula(
         "lqr-closed-loop",
         closed,
@@ -386,6 +419,9 @@ with evaluate(False):
         source="Bertsekas 2017, section 3.1",
         hint="Put a = −L s into the dynamics.",
         place=Place.WORKING,
+        misread={
+            LOOP_WITH_PLUS: Ai + Bi * Li,
+        },
     )
 
 
@@ -497,7 +533,10 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
         )
         quadratic = Add(square, -b * P if costs else b * P, -product)
         root = b + sqrt(b**2 + Mul(4, *ahead, B**2, product))
+        near = scalar_system(notation, discounted=False, crossed=crossed, modes=modes) if discounted else None
         misread = {OTHER_ROOT: -(b - sqrt(b**2 + 4 * B**2 * Q * R)) / (2 * B**2)} if plain else {}
+        if near:
+            misread[NEXT_NOT_DISCOUNTED] = near.root.right
         best = Mul(turned, Pow(bracket, -1))
         cost_to_go = {POSITIVE_S: Mul(-1, B, P, A, Pow(-(B**2) * P - R, -1))} if plain else {}
         return ScalarSystem(
@@ -508,7 +547,15 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
                 multiplied,
                 (Add(square, Mul(-1, beta_right, P) if costs else Mul(beta_right, P), -product), S.Zero),
             ),
-            LQR_BETA if own else replace(LQR_BETA, left=b, right=beta_right, note=""),
+            LQR_BETA
+            if own
+            else replace(
+                LQR_BETA,
+                left=b,
+                right=beta_right,
+                note="",
+                misread={NEXT_NOT_DISCOUNTED: near.beta.right} if near else {},
+            ),
             quadratic,
             LQR_ROOT
             if own
@@ -520,7 +567,7 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
                 note="",
             ),
             replace(LQR_STATIONARY_GAIN, left=L, right=best, misread=cost_to_go),
-            replace(LQR_CLOSED_LOOP, left=loop, right=A - B * L),
+            replace(LQR_CLOSED_LOOP, left=loop, right=A - B * L, misread={}),
         )
 
 
@@ -542,6 +589,7 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
     loop = letter(f"closed{notation.gain}", Script(variable("A"), variable(notation.gain)), matrix=True)
     with evaluate(False):
         ahead = (gamma,) if discounted else ()
+        plain = stationary(notation, discounted=False, crossed=crossed) if discounted else None
         turned = Mul(*ahead, Transposed(Ai), value, Bi)
         square, both = Mul(*ahead, Transposed(Bi), value, Bi), Mul(*ahead, Transposed(Bi), value, Ai)
         bracket = Ri + square if notation.costs else square - Ri
@@ -555,8 +603,13 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
                 right=(Qi if notation.costs else -Qi) + Mul(*ahead, Transposed(Ai), value, Ai) - turned * gain,
                 note="",
             ),
-            replace(LQR_STATIONARY_GAIN, left=gain, right=Pow(bracket, -1) * both, misread={}),
-            replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain),
+            replace(
+                LQR_STATIONARY_GAIN,
+                left=gain,
+                right=Pow(bracket, -1) * both,
+                misread={NEXT_NOT_DISCOUNTED: plain.gain.right} if plain else {},
+            ),
+            replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain, misread={LOOP_WITH_PLUS: Ai + Bi * gain}),
         )
 
 

@@ -342,6 +342,7 @@ with evaluate(False):
         note="The critic learns by TD, $V(s_t) ← V(s_t) + αδ_t$; the TD error stands for the advantage.",
         misread={
             WEIGHTED_BY_REWARD: theta_vector + beta * r(t + 1) * _LOG_GRADIENT,
+            DESCENT: theta_vector - beta * delta(t) * _LOG_GRADIENT,
         },
     )
     BASELINE_ADDED = Misconception(

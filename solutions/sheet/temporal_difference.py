@@ -213,6 +213,9 @@ with evaluate(False):
     INCREMENT_FIRST = Misconception(
         "increment-before-decay", "The trace decays first, and 1 is added after that: the newest visit counts in full."
     )
+    VISITED_DOES_NOT_DECAY = Misconception(
+        "visited-does-not-decay", "Every trace decays at every time, that of the visited state too; then 1 is added."
+    )
     ELIGIBILITY_TRACE = Formula(
         "eligibility-trace",
         e(s),
@@ -226,6 +229,7 @@ with evaluate(False):
             DECAY_WITHOUT_LAMBDA: gamma * e(s) + _VISIT,
             REPLACING: _DECAYED * (1 - _VISIT) + _VISIT,
             INCREMENT_FIRST: gamma * lam * (e(s) + _VISIT),
+            VISITED_DOES_NOT_DECAY: Cases(_VISIT, e(s) + 1, _DECAYED),
         },
     )
 
@@ -282,6 +286,11 @@ with evaluate(False):
     WRONG_SIGN = Misconception(
         "sign-of-td-error", "The TD error is target minus old value, so that the value moves towards the target."
     )
+    TARGET_FOR_VALUE = Misconception(
+        "target-for-value",
+        "The target is not the new value: the old value moves only the step α of the way to it.",
+        when=_given("alpha"),
+    )
     TD_ZERO = Formula(
         "td-zero",
         V(S(t)),
@@ -294,6 +303,7 @@ with evaluate(False):
             FORGOT_GAMMA: V(S(t)) + alpha * (r(t + 1) + V(S(t + 1)) - V(S(t))),
             TARGET_ONLY: V(S(t)) + alpha * (r(t + 1) + gamma * V(S(t + 1))) - V(S(t)),
             WRONG_SIGN: V(S(t)) + alpha * (V(S(t)) - (r(t + 1) + gamma * V(S(t + 1)))),
+            TARGET_FOR_VALUE: r(t + 1) + gamma * V(S(t + 1)),
         },
     )
 

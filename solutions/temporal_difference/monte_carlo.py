@@ -1,6 +1,6 @@
 """Monte Carlo from one episode: the returns backwards in time, then an update for every visit that counts."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from rldrill.problems.exact import Scalar
@@ -22,14 +22,17 @@ def solve(given: Given, work: Work) -> None:
     _finish(given, work, _returns(given, work))
 
 
-def _finish(given: Given, work: Work, returns: tuple[Value, ...], *, stale: bool = False) -> None:
-    """The updates with these returns; ``stale`` ones all start from the values before the first."""
+def _finish(given: Given, work: Work, returns: tuple[Value, ...], *, stale: bool = False, last: bool = False) -> None:
+    """The updates with these returns; ``stale`` ones all start from the values before the first, and ``last`` are
+    those of the last visits alone.
+    """
+    times = _last(given) if last else _counted(given, work)
     if isinstance(given, OfStates) and given.known is not None:
-        find_and_finish(given, work, lambda read: _updated(given, work, returns, read, stale=stale))
+        find_and_finish(given, work, lambda read: _updated(given, work, returns, read, times, stale=stale))
     elif isinstance(given, OfStates):
-        work.answer(_updated(given, work, returns, exact, stale=stale))
+        work.answer(_updated(given, work, returns, exact, times, stale=stale))
     else:
-        work.answer(_updated_pairs(given, work, returns, stale=stale))
+        work.answer(_updated_pairs(given, work, returns, times, stale=stale))
 
 
 def _returns(given: Given, work: Work) -> tuple[Value, ...]:
@@ -47,11 +50,11 @@ def _returns(given: Given, work: Work) -> tuple[Value, ...]:
 
 
 def _updated_pairs(
-    given: OfActions, work: Work, returns: tuple[Value, ...], *, stale: bool
+    given: OfActions, work: Work, returns: tuple[Value, ...], times: Iterable[int], *, stale: bool
 ) -> dict[tuple[str, str], Value]:
     known = knowns.action_run(given)
     values = first = known.pop("Q")
-    for time in _counted(given, work):
+    for time in times:
         pair = given.moves[time][:2]
         now = first if stale else values
         new = work.step(TOWARDS_TARGET, t=time, y=dict(enumerate(returns)), Q=now, **known)
@@ -60,11 +63,17 @@ def _updated_pairs(
 
 
 def _updated(
-    given: OfStates, work: Work, returns: tuple[Value, ...], read: Callable[[Scalar], Value], *, stale: bool
+    given: OfStates,
+    work: Work,
+    returns: tuple[Value, ...],
+    read: Callable[[Scalar], Value],
+    times: Iterable[int],
+    *,
+    stale: bool,
 ) -> dict[str, Value]:
     S = dict(enumerate(given.trajectory.states))
     values = first = {state: read(value) for state, value in given.values.items()}
-    for time in _counted(given, work):
+    for time in times:
         now = first if stale else values
         new = work.step(MONTE_CARLO, t=time, V=now, S=S, G=dict(enumerate(returns)), alpha=read(given.alpha))
         values = values | {S[time]: values[S[time]] + new - now[S[time]] if stale else new}
@@ -80,6 +89,21 @@ def _counted(given: Given, work: Work) -> Iterator[int]:
             what = visited if isinstance(visited, str) else f"({', '.join(visited)})"
             first = given.occasions.index(visited)
             work.say(f"$t = {time}$ makes no update: the first visit to {what} was at $t = {first}$.")
+
+
+def _last(given: Given) -> list[int]:
+    """The times of the last visits."""
+    return sorted({visited: time for time, visited in enumerate(given.occasions)}.values())
+
+
+@slip(
+    "last-visit",
+    "The visit that counts is the first one in the episode, not the last.",
+    when=lambda given: given.revisits and given.visits == "first",
+)
+def last_visit(given: Given, work: Work) -> None:
+    """The return of the last visit for that of the first."""
+    _finish(given, work, _returns(given, work), last=given.visits == "first")
 
 
 @slip(
@@ -112,7 +136,13 @@ def stale_values(given: Given, work: Work) -> None:
     _finish(given, work, _returns(given, work), stale=True)
 
 
-MISCONCEPTIONS = (other_visits, RECURSION_UNDISCOUNTED, reward_before, stale_values.where_it_shows())
+MISCONCEPTIONS = (
+    other_visits,
+    RECURSION_UNDISCOUNTED,
+    reward_before,
+    stale_values.where_it_shows(),
+    last_visit.where_it_shows(),
+)
 
 
 def _before(given: Given, what: Any) -> Scalar:

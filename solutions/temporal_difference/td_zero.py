@@ -10,7 +10,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
-from rldrill.solutions.sheet.temporal_difference import TARGET_ONLY, TD_ZERO, WRONG_SIGN
+from rldrill.solutions.sheet.temporal_difference import TARGET_FOR_VALUE, TARGET_ONLY, TD_ZERO, WRONG_SIGN
 from rldrill.solutions.work import Work
 
 
@@ -55,7 +55,7 @@ def stale(given: Given, work: Work) -> None:
     _learn(given, work, newest=False)
 
 
-MISCONCEPTIONS = (FORGOT_GAMMA, stale, TARGET_ONLY, WRONG_SIGN)
+MISCONCEPTIONS = (FORGOT_GAMMA, stale, TARGET_ONLY, WRONG_SIGN, TARGET_FOR_VALUE.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

@@ -1,0 +1,28 @@
+"""A working that is gone through again, with nothing changed in it, is the right working."""
+
+import pytest
+
+import rldrill
+from rldrill.diagnosis import Diagnosing
+from rldrill.problems.catalogue import families
+from rldrill.solutions.diagnosis.replay import Change
+
+
+@pytest.mark.parametrize("name", families())
+@pytest.mark.parametrize("level", [1, 3])
+def test_every_step_as_it_was_leads_to_the_right_answers(name: str, level: int) -> None:
+    solution = rldrill.draw(name, level, 4711).solution
+    search = Diagnosing(solution).search({})
+    for application in search.applications:
+        again = search.replay(Change(values={application.number: application.value}))
+        assert {label: str(answer) for label, answer in (again or {}).items()} == {
+            label: str(answer) for label, answer in solution.answers.items()
+        }, application.number
+
+
+def test_what_goes_wrong_behind_a_comparison_is_told() -> None:
+    # V*(cape) = 6 and Q*(cape, drift) = 2 + 2/3·6; the best actions are found before that is asked for.
+    exercise = rldrill.draw("optimal-value", 1, 847825)
+    said = exercise.diagnose("2, 8, -8, -3", "c").sentence  # 2 + 6 = 8
+    assert "γ is missing" in said
+    assert "Q*(cape, drift)" in said
