@@ -203,6 +203,8 @@ _TOKEN = re.compile(
 _MARKS: dict[str, Literal["hat", "bar", "tilde"]] = {"\u0302": "hat", "\u0304": "bar", "\u0303": "tilde"}
 _RELATIONS = set("=<>≤≥≠←→∈≈∼↦")
 _OPERATORS = set("+−-·×*±")
+#: Signs that stand for something, as letters do.
+_SYMBOLS = set("∂∇∞…")
 _OPENING = {"(": ")", "[": "]", "{": "}", "‖": "‖"}
 
 
@@ -288,6 +290,8 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
         return letters(token.replace("'", "′")), at + 1
     if token == "⊤":
         return word("T"), at + 1
+    if token in _SYMBOLS:
+        return variable(token), at + 1
     if token in _RELATIONS:
         return relation(token), at + 1
     if token in _OPERATORS:

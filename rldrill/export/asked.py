@@ -15,6 +15,7 @@ from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.judging import read_answer
+from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind, text_of
 from rldrill.solutions.answers.rule import tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
@@ -51,9 +52,13 @@ Cell = Word | Quantity
 
 
 class Wrong(Struct, frozen=True):
-    """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it."""
+    """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it.
+
+    ``value`` is the answer as a solver would give it.
+    """
 
     cells: tuple[str, ...]
+    value: Any
     says: str
     read: Equation | None
 
@@ -112,7 +117,17 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
             found = read_answer(exercise.solution, part, wrong.answer)
         except Unreadable:
             continue  # a number so large that nobody types it
-        yield Wrong(tuple(map(_typed, found.values())), wrong.sentence, wrong.read)
+        value = answer_kind(part.kind).value({name: _content(cell) for name, cell in found.items()})
+        yield Wrong(tuple(map(_typed, found.values())), value, wrong.sentence, wrong.read)
+
+
+def typeset(part: Part, wrong: Wrong) -> Sequence[Math]:
+    """A wrong answer as mathematics, a line for every number."""
+    return all_in_notation(answer_lines(part, wrong.value))
+
+
+def _content(cell: Any) -> Any:
+    return cell.value if isinstance(cell, Reading) else cell
 
 
 def _typed(cell: Any) -> str:

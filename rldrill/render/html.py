@@ -9,6 +9,7 @@ from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.markdown import latex_block_equation
 from rldrill.render.mathematics.latex import latex
 from rldrill.render.mathematics.mathml import element, mathml, relation
+from rldrill.render.mathematics.spacing import parted
 from rldrill.render.mathematics.unicode import inline, unicode
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
@@ -26,7 +27,14 @@ class Html:
 
     def text(self, text: str) -> str:
         """Running text with its mathematics."""
-        return "".join(escape(piece) if isinstance(piece, str) else self.math(piece) for piece in pieces(text))
+        return "".join(self.words(piece) if isinstance(piece, str) else self.math(piece) for piece in pieces(text))
+
+    def words(self, text: str) -> str:
+        """Text without mathematics; no line ends behind the hyphen of Q-learning."""
+        return "".join(
+            f'<span class="unparted">{escape(piece)}</span>' if whole else escape(piece)
+            for piece, whole in parted(text)
+        )
 
     def math(self, math: Math) -> str:
         """Mathematics within a line; what is long is moved sideways where the screen is narrower."""
@@ -112,6 +120,10 @@ class LatexHtml(Html):
         """Mathematics within a line."""
         return escape(rf"\({latex(math)}\)")
 
+    def words(self, text: str) -> str:
+        """Text without mathematics, and nothing else."""
+        return escape(text)
+
     def table(self, table: Table) -> str:
         """A table, and nothing around it."""
         lines = [f"<tr>{''.join(f'<th>{self.text(cell)}</th>' for cell in table.header)}</tr>"]
@@ -121,7 +133,8 @@ class LatexHtml(Html):
     def equation(self, equation: Equation) -> str:
         """An equation on lines of its own."""
         if equation.is_bare:
-            return f"<p>{' &emsp; '.join(map(self.math, equation.rights))}</p>"
+            sides = (escape(rf"\(\displaystyle {latex(right)}\)") for right in equation.rights)
+            return f"<p>{' &emsp; '.join(sides)}</p>"
         written = rf"\[{latex_block_equation(equation)}\]"
         return f"<p>{escape(written)}</p>"
 

@@ -346,7 +346,7 @@ def test_choices_and_matrices_of_a_page_are_buttons_and_boxes_in_their_columns(t
 
 def test_choices_and_matrices_of_latex_moodle_and_qti(tmp_path: Path) -> None:
     latex = other("latex", tmp_path).decode()
-    assert "\\begin{checkboxes}\n\\choice small\n\\choice large\n\\end{checkboxes}\n" in latex
+    assert "\\begin{checkboxes}\n\\choice (A) small\n\\choice (B) large\n\\end{checkboxes}\n" in latex
     assert "\\begin{oneparcheckboxes}\n\\choice yes \\choice no\n\\end{oneparcheckboxes}\n" in latex
 
     assert "Q^π" in other("json", tmp_path).decode()

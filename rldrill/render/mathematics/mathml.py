@@ -18,7 +18,7 @@ from rldrill.problems.mathematics import (
     Tabular,
     is_sign,
 )
-from rldrill.render.mathematics.spacing import needs_space
+from rldrill.render.mathematics.spacing import is_tall, needs_space
 from rldrill.render.mathematics.unicode import unmarked
 
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
@@ -52,7 +52,7 @@ def element(math: Math) -> str:
         case Script(body, below, above):
             return _script(body, below, above)
         case Fence(body, left, right):
-            grows = _is_tall(body)
+            grows = is_tall(body)
             brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)
             return f"<mrow>{brackets[0]}{element(body)}{brackets[1]}</mrow>"
         case Big(sign, below, above):
@@ -79,18 +79,6 @@ def _fence(sign: str, form: str, *, grows: bool = True) -> str:
         return ""
     stretchy = "true" if grows else "false"
     return f'<mo fence="true" stretchy="{stretchy}" form="{form}" lspace="0" rspace="0">{escape(sign)}</mo>'
-
-
-def _is_tall(math: Math) -> bool:
-    match math:
-        case Fraction() | Tabular() | Big():
-            return True
-        case Row(items):
-            return any(map(_is_tall, items))
-        case Glyph():
-            return False
-        case _:
-            return _is_tall(math.body)
 
 
 def _big(sign: str) -> str:

@@ -21,6 +21,7 @@ from rldrill.problems.mathematics import (
     Style,
     Tabular,
 )
+from rldrill.render.mathematics.spacing import parted
 from rldrill.render.mathematics.unicode import unicode
 
 _FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tr", "det"}
@@ -45,8 +46,6 @@ _MINUS = Glyph("−", "operator")
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 #: Equations of at most this many signs stand side by side.
 SHORT = 24
-#: What is not parted behind its hyphen: Q-learning, n-step.
-_LETTER_AND_WORD = re.compile(r"(?<![\w-])([^\W\d_]-[^\W\d_]+)(?![\w-])")
 
 
 def typst(math: Math) -> str:
@@ -112,12 +111,7 @@ def equation(math: Math, function: str = "eq") -> str:
 
 def plain(text: str) -> str:
     """Text without mathematics as Typst markup, dollar signs and all; no line ends behind the hyphen of Q-learning."""
-    pieces = _LETTER_AND_WORD.split(text)
-    return "".join(
-        f"#box[#{quoted(piece)};]" if number % 2 else f"#{quoted(piece)};"
-        for number, piece in enumerate(pieces)
-        if piece
-    )
+    return "".join(f"#box[#{quoted(piece)};]" if whole else f"#{quoted(piece)};" for piece, whole in parted(text))
 
 
 def relation(sign: str) -> str:
