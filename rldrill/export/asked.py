@@ -10,7 +10,7 @@ from msgspec import Struct
 from rldrill.exam.choices import Language
 from rldrill.exercise import Exercise
 from rldrill.print.words import Words, words
-from rldrill.problems.document import Equation
+from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
@@ -73,6 +73,14 @@ def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Ce
         _cell(part, name, None if left is None else next(written), each, words(language))
         for (name, each), left in zip(content.items(), lefts, strict=True)
     )
+
+
+def answer(exercise: Exercise, part: Part) -> Block:
+    """The answer to a part as it is written out; of a choice what its letter stands for, too."""
+    if isinstance(part.kind, Choice):
+        letter = exercise.solution.answers[part.label]
+        return Paragraph(f"({letter}) {part.kind.options[letter]}")
+    return exercise.answer(part)
 
 
 def _cell(part: Part, name: str, left: Math | None, content: Any, told: Words) -> Cell:

@@ -2,7 +2,7 @@
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Wrong, typeset, wrong_answers
+from rldrill.export.asked import Wrong, answer, typeset, wrong_answers
 from rldrill.export.words import page_words
 from rldrill.print.solved import with_mathematics
 from rldrill.print.words import Words, words
@@ -98,7 +98,7 @@ def _part(exercise: Exercise, part: Part, told: Words, *, with_solutions: bool) 
     space = "" if options else f"{max(2, whole(minutes_of(exercise.solution, part.label)))}cm"
     if not with_solutions:
         return f"{asked}\\vspace{{{space}}}\n" if space else asked
-    body = latex_document((exercise.answer(part), *exercise.working(part.label)))
+    body = latex_document((answer(exercise, part), *exercise.working(part.label)))
     wrong = _mistakes(exercise, part, told.mistakes)
     return f"{asked}\\begin{{solution}}{f'[{space}]' if space else ''}\n{body}{wrong}\\end{{solution}}\n"
 

@@ -4,7 +4,9 @@ import re
 from collections.abc import Sequence
 from html import escape
 
+from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import (
+    EMPTY,
     Accent,
     Big,
     Fence,
@@ -68,7 +70,22 @@ def element(math: Math) -> str:
             return f"<mrow>{_fence(left, 'prefix')}<mtable>{lines}</mtable>{_fence(right, 'postfix')}</mrow>"
 
 
-def relation(sign: str) -> str:
+def chain(equation: Equation) -> str:
+    """An equation as one element, its right sides one under the other."""
+    left = "" if equation.left == EMPTY else element(equation.left)
+    links = list(zip(equation.signs, equation.rights, strict=True))
+    if len(links) == 1:
+        ((sign, right),) = links
+        return f"<mrow>{left}{_relation(sign)}{element(right)}</mrow>"
+    lefts = (left, *[""] * (len(links) - 1))
+    lines = "".join(
+        f"<mtr><mtd>{before}</mtd><mtd><mrow>{_relation(sign)}{element(right)}</mrow></mtd></mtr>"
+        for before, (sign, right) in zip(lefts, links, strict=True)
+    )
+    return f'<mtable class="chain" displaystyle="true">{lines}</mtable>'
+
+
+def _relation(sign: str) -> str:
     """The sign between two sides; nothing where there is none."""
     return f"<mo>{escape(sign)}</mo>" if sign else ""
 
