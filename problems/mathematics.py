@@ -161,6 +161,14 @@ def number(value: object) -> Math:
     return row(operator("−"), magnitude) if minus else magnitude
 
 
+def with_one_index(script: Script) -> Script:
+    """The index of what has an index stands beside that one, not below it: ``A_{Δ,13}``."""
+    match script:
+        case Script(Script(body, inner, None), outer, above) if inner is not None and outer is not None:
+            return Script(body, row(inner, punctuation(","), outer), above)
+    return script
+
+
 def signs(math: Math) -> Iterator[str]:
     """All that is written in mathematics, sign by sign, with marks for fractions, roots and brackets."""
     match math:

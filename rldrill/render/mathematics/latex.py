@@ -17,6 +17,7 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     is_sign,
+    with_one_index,
 )
 from rldrill.render.mathematics.spacing import is_tall, needs_space, parted
 from rldrill.render.mathematics.unicode import ABOVE, BELOW, unmarked
@@ -86,10 +87,8 @@ def latex(math: Math) -> str:
             return " ".join(_spaced(items))
         case Fraction(numerator, denominator):
             return rf"\frac{{{latex(numerator)}}}{{{latex(denominator)}}}"
-        case Script(body, below, above):
-            if isinstance(body, Glyph):
-                return _glyph(body.text, body.style, _optional(below), _optional(above))
-            return f"{{{latex(body)}}}{_scripts(_optional(below), _optional(above))}"
+        case Script():
+            return _script(with_one_index(math))
         case Fence(body, left, right):
             if is_tall(body):
                 return rf"\left{_fence(left)} {latex(body)} \right{_fence(right)}"
@@ -108,6 +107,13 @@ def latex(math: Math) -> str:
         case Tabular(rows, left, right):
             lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
             return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"
+
+
+def _script(script: Script) -> str:
+    body, below, above = script.body, _optional(script.below), _optional(script.above)
+    if isinstance(body, Glyph):
+        return _glyph(body.text, body.style, below, above)
+    return f"{{{latex(body)}}}{_scripts(below, above)}"
 
 
 def _spaced(items: tuple[Math, ...]) -> Iterator[str]:

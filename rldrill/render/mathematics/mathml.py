@@ -19,6 +19,7 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     is_sign,
+    with_one_index,
 )
 from rldrill.render.mathematics.spacing import is_tall, needs_space
 from rldrill.render.mathematics.unicode import unmarked
@@ -51,8 +52,8 @@ def element(math: Math) -> str:
             return f"<mrow>{_row(items)}</mrow>"
         case Fraction(numerator, denominator):
             return f"<mfrac>{element(numerator)}{element(denominator)}</mfrac>"
-        case Script(body, below, above):
-            return _script(body, below, above)
+        case Script():
+            return _script(with_one_index(math))
         case Fence(body, left, right):
             grows = is_tall(body)
             brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)
@@ -142,7 +143,8 @@ def _sign(text: str, style: str) -> str:
             return f"<mo>{shown}</mo>"
 
 
-def _script(body: Math, below: Math | None, above: Math | None) -> str:
+def _script(script: Script) -> str:
+    body, below, above = script.body, script.below, script.above
     base, digits, primes = _taken_apart(body) if isinstance(body, Glyph) else (element(body), "", "")
     lower = [part for part in (digits, "" if below is None else element(_on_one_line(below))) if part]
     upper = [part for part in (primes, "" if above is None else element(_on_one_line(above))) if part]
