@@ -161,6 +161,14 @@ def number(value: object) -> Math:
     return row(operator("−"), magnitude) if minus else magnitude
 
 
+def with_one_index(script: Script) -> Script:
+    """The index of what has an index stands beside that one, not below it: ``A_{Δ,13}``."""
+    match script:
+        case Script(Script(body, inner, None), outer, above) if inner is not None and outer is not None:
+            return Script(body, row(inner, punctuation(","), outer), above)
+    return script
+
+
 def signs(math: Math) -> Iterator[str]:
     """All that is written in mathematics, sign by sign, with marks for fractions, roots and brackets."""
     match math:
@@ -203,6 +211,8 @@ _TOKEN = re.compile(
 _MARKS: dict[str, Literal["hat", "bar", "tilde"]] = {"\u0302": "hat", "\u0304": "bar", "\u0303": "tilde"}
 _RELATIONS = set("=<>≤≥≠←→∈≈∼↦")
 _OPERATORS = set("+−-·×*±")
+#: Signs that stand for something, as letters do.
+_SYMBOLS = set("∂∇∞…")
 _OPENING = {"(": ")", "[": "]", "{": "}", "‖": "‖"}
 
 
@@ -288,6 +298,8 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
         return letters(token.replace("'", "′")), at + 1
     if token == "⊤":
         return word("T"), at + 1
+    if token in _SYMBOLS:
+        return variable(token), at + 1
     if token in _RELATIONS:
         return relation(token), at + 1
     if token in _OPERATORS:

@@ -43,6 +43,10 @@ if TYPE_CHECKING:
     from rldrill.diagnosis import Diagnosing, Diagnosis, Followed
 
 
+#: Lines in which an equation is solved further.
+_SOLVED_FURTHER = (Result, Elimination, Equality)
+
+
 class Exercise(Struct, frozen=True, dict=True):
     """A problem together with its solution.
 
@@ -234,7 +238,7 @@ class Exercise(Struct, frozen=True, dict=True):
     def scheme(self, part: str) -> tuple[tuple[tuple[Block, ...], int], ...]:
         """The working of a part in pieces, each with the points that are earned when it is reached.
 
-        The points follow the time that the steps take.
+        The points follow the time that the steps take; an equation that is solved earns them with its last line.
 
         Raises:
             UsageError: the problem has no such part.
@@ -246,13 +250,16 @@ class Exercise(Struct, frozen=True, dict=True):
         stated: set[Formula] = set()
         result: list[tuple[tuple[Block, ...], int]] = []
         waiting: tuple[Block, ...] = ()
-        for line, time in zip(lines, times, strict=True):
-            waiting += tuple(_written([line], stated))
+        for index, time in enumerate(times):
+            waiting += tuple(_written([lines[index]], stated))
             spent += time
             reached = int(worth * spent / whole) if whole else 0
-            if time and reached > earned:
+            if reached > earned and not isinstance(next(iter(lines[index + 1 :]), None), _SOLVED_FURTHER):
                 result.append((waiting, reached - earned))
                 earned, waiting = reached, ()
+        if result and earned == worth and all(isinstance(block, Paragraph) for block in waiting):
+            blocks, points = result.pop()
+            return (*result, (blocks + waiting, points))  # the conclusion from the last step earns its points
         return (*result, (waiting, worth - earned)) if waiting else tuple(result)
 
     def answer(self, part: Part) -> Equation:
@@ -316,7 +323,7 @@ class Exercise(Struct, frozen=True, dict=True):
 
 def _seconds(lines: Sequence[Line], index: int) -> Fraction:
     """The time that a line takes, which for the solution of equations depends on those before."""
-    if isinstance(lines[index], Result | Elimination | Equality):
+    if isinstance(lines[index], _SOLVED_FURTHER):
         return seconds_of(lines[: index + 1]) - seconds_of(lines[:index])
     return seconds_of([lines[index]])
 

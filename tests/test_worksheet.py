@@ -31,7 +31,9 @@ from rldrill.print.worksheet import even_columns, options, space_of, worksheet_s
 from rldrill.problems.errors import UsageError
 from rldrill.problems.notations import used
 from rldrill.problems.parts import Choice, Matrix, Number, Part
+from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.rule import RULE
 from rldrill.writing import write_bytes_atomically
@@ -542,3 +544,12 @@ def test_whoever_is_told_to_end_ends_without_a_word_and_can_go_on(tmp_path: Path
     again = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
     assert "are there already" in again.stderr
     assert len([*tmp_path.glob("*.pdf")]) == 24
+
+
+def test_points_stand_at_the_last_line_of_an_equation_and_at_the_conclusion() -> None:
+    last = [unicode_text(blocks[-1]) for blocks, _ in load("optimal-policy-from-v/3/1").scheme("a")]
+    assert last[:2] == ["x = 0", "x = 9"]
+    assert last[-1] == "The best action in slope is climb."
+    *_, (blocks, points) = load("bayes-filter/2/17").scheme("a")
+    assert points == 0
+    assert isinstance(blocks[-1], Picture)

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Wrong, wrong_answers
+from rldrill.export.asked import Wrong, answer, typeset, wrong_answers
 from rldrill.export.page import beside
+from rldrill.print.solved import with_mathematics
 from rldrill.print.words import Words, words
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Choice, Part
@@ -106,14 +107,16 @@ def _asked(exercise: Exercise, part: Part) -> str:
 
 
 def _solved(exercise: Exercise, part: Part, told: Words) -> str:
-    wrong = "".join(map(_wrong, wrong_answers(exercise, part, _MISTAKES)))
+    wrong = "".join(_wrong(part, each) for each in wrong_answers(exercise, part, _MISTAKES))
     mistakes = f"<p>{told.mistakes}</p><ul>{wrong}</ul>" if wrong else ""
     return (
-        f"<p><b>{_label(exercise, part)}</b></p>{_HTML.block(exercise.answer(part))}"
+        f"<p><b>{_label(exercise, part)}</b></p>{_HTML.block(answer(exercise, part))}"
         f"{_HTML.blocks(exercise.working(part.label))}{mistakes}"
     )
 
 
-def _wrong(wrong: Wrong) -> str:
+def _wrong(part: Part, wrong: Wrong) -> str:
     read = "" if wrong.read is None else _HTML.block(wrong.read)
-    return f"<li>{_HTML.text(', '.join(wrong.cells))}: {_HTML.text(wrong.says)}{read}</li>"
+    is_choice = isinstance(part.kind, Choice)
+    typed = f"({wrong.cells[0]})" if is_choice else " &emsp; ".join(map(_HTML.math, typeset(part, wrong)))
+    return f"<li>{typed}: {_HTML.text(with_mathematics(wrong.says))}{read}</li>"

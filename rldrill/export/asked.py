@@ -10,11 +10,12 @@ from msgspec import Struct
 from rldrill.exam.choices import Language
 from rldrill.exercise import Exercise
 from rldrill.print.words import Words, words
-from rldrill.problems.document import Equation
+from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.judging import read_answer
+from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind, text_of
 from rldrill.solutions.answers.rule import tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
@@ -51,9 +52,13 @@ Cell = Word | Quantity
 
 
 class Wrong(Struct, frozen=True):
-    """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it."""
+    """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it.
+
+    ``value`` is the answer as a solver would give it.
+    """
 
     cells: tuple[str, ...]
+    value: Any
     says: str
     read: Equation | None
 
@@ -68,6 +73,14 @@ def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Ce
         _cell(part, name, None if left is None else next(written), each, words(language))
         for (name, each), left in zip(content.items(), lefts, strict=True)
     )
+
+
+def answer(exercise: Exercise, part: Part) -> Block:
+    """The answer to a part as it is written out; of a choice what its letter stands for, too."""
+    if isinstance(part.kind, Choice):
+        letter = exercise.solution.answers[part.label]
+        return Paragraph(f"({letter}) {part.kind.options[letter]}")
+    return exercise.answer(part)
 
 
 def _cell(part: Part, name: str, left: Math | None, content: Any, told: Words) -> Cell:
@@ -112,7 +125,17 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
             found = read_answer(exercise.solution, part, wrong.answer)
         except Unreadable:
             continue  # a number so large that nobody types it
-        yield Wrong(tuple(map(_typed, found.values())), wrong.sentence, wrong.read)
+        value = answer_kind(part.kind).value({name: _content(cell) for name, cell in found.items()})
+        yield Wrong(tuple(map(_typed, found.values())), value, wrong.sentence, wrong.read)
+
+
+def typeset(part: Part, wrong: Wrong) -> Sequence[Math]:
+    """A wrong answer as mathematics, a line for every number."""
+    return all_in_notation(answer_lines(part, wrong.value))
+
+
+def _content(cell: Any) -> Any:
+    return cell.value if isinstance(cell, Reading) else cell
 
 
 def _typed(cell: Any) -> str:

@@ -17,10 +17,9 @@ from msgspec.structs import replace
 
 from rldrill.exam.exam import Exam, Head, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, answer, cells, is_open, told_apart, wrong_answers
 from rldrill.export.packed import packed
 from rldrill.export.words import page_words, typing_note
-from rldrill.problems.document import Table
 from rldrill.problems.notations import with_mark
 from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.problems.pictures import Picture
@@ -45,10 +44,6 @@ class _Writer(LatexHtml):
         self.head = head
         self._folder = folder
         self.files: dict[str, str] = {}
-
-    def table(self, table: Table) -> str:
-        """A table with lines, which Canvas does not draw by itself."""
-        return super().table(table).replace("<table>", '<table border="1" cellpadding="4">', 1)
 
     def picture(self, picture: Picture) -> str:
         """A picture as a file that the text refers to."""
@@ -184,7 +179,7 @@ def _questions(writer: _Writer, number: int, exercise: Exercise, *, practice: bo
     yield _Question("text_only_question", title, writer.blocks(exercise.question()) + note)
     for part, every in asked:
         for question in _of_part(writer, exercise, part, every):
-            working = writer.block(exercise.answer(part)) + writer.blocks(exercise.working(part.label))
+            working = writer.block(answer(exercise, part)) + writer.blocks(exercise.working(part.label))
             yield replace(question, title=f"{title} {question.title}".strip(), working=working if practice else "")
 
 

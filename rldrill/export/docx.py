@@ -1,16 +1,26 @@
 """An exam for Word: its Markdown, converted by pandoc, the computer's own or the one that pypandoc brings along."""
 
+import hashlib
 import os
+import re
 import shutil
 import subprocess
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.export.text import BELOW, markdown_exam
+from rldrill.print.paper import png_of_svg
 from rldrill.problems.errors import UsageError
+from rldrill.problems.pictures import Picture, Timeline
+from rldrill.render.markdown import markdown, markdown_plain
+from rldrill.render.pictures.described import described
+from rldrill.render.pictures.svg import svg
 
 _SECONDS = 120
+#: How wide a picture is on the screen.
+_WIDTH = re.compile(r' width="(\d+)"')
 #: A document tells when it was written; the same exam shall be the same document. No zip file is older than that.
 _WRITTEN = {"SOURCE_DATE_EPOCH": "315532800"}
 
@@ -27,16 +37,18 @@ def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
             "Documents of Word are made by pandoc, which is not installed; get it with pip install 'rldrill[docx]', or "
             "from https://pandoc.org."
         )
-    source = markdown_exam(exam, version, practice=practice, answers=BELOW)
     with TemporaryDirectory() as folder:
+        drawn = partial(_drawn, Path(folder))
+        source = markdown_exam(exam, version, practice=practice, answers=BELOW, written=partial(markdown, drawn=drawn))
         path = Path(folder) / "exam.docx"
         # The first heading becomes the title, as Word knows it, and those of the problems the first of all.
         told = ["--shift-heading-level-by=-1", f"--metadata=lang:{exam.head.language}"]
-        run = [program, "--from=gfm", "--to=docx", *told, f"--output={path}"]
+        run = [program, "--from=gfm+attributes", "--to=docx", *told, f"--output={path}"]
         try:
             done = subprocess.run(
                 run,
                 input=source.encode(),
+                cwd=folder,
                 env=os.environ | _WRITTEN,
                 capture_output=True,
                 timeout=_SECONDS,
@@ -48,6 +60,17 @@ def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
             said = done.stderr.decode(errors="replace").strip().partition("\n")[0][:200]
             raise UsageError(f"pandoc refuses the text ({said}); a newer release of it may not.")
         return path.read_bytes()
+
+
+def _drawn(folder: Path, picture: Picture) -> str:
+    """A picture as a file in the folder; a row of texts, and what cannot be drawn readably, with signs."""
+    drawing = "" if isinstance(picture, Timeline) else svg(picture)
+    if not drawing:
+        return markdown([picture])
+    name = f"{hashlib.sha256(drawing.encode()).hexdigest()}.png"
+    (folder / name).write_bytes(png_of_svg(drawing.encode()))
+    (width,) = _WIDTH.findall(drawing)[:1]
+    return f"![{markdown_plain(described(picture))}]({name}){{width={width}px}}"
 
 
 def _brought_along() -> str | None:

@@ -7,7 +7,7 @@ from typing import Any
 from rldrill.exam.choices import DecimalMark, Language
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, cells, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, answer, cells, wrong_answers
 from rldrill.export.page import beside, embedded, page
 from rldrill.export.words import PageWords, page_words
 from rldrill.print.words import words, written_points
@@ -129,15 +129,10 @@ def part_form(language: Language, number: int, exercise: Exercise, part: Part, *
 
 
 def _helps(said: PageWords, exercise: Exercise, part: Part) -> str:
-    if isinstance(part.kind, Choice):
-        letter = exercise.solution.answers[part.label]
-        answer = f"<p>({escape(letter)}) {HTML.text(part.kind.options[letter])}</p>"
-    else:
-        answer = HTML.block(exercise.answer(part))
     return (
         f'<details class="hint"><summary>{said.hint}</summary>{HTML.blocks(exercise.hint(part.label))}</details>\n'
-        f'<details class="working"><summary>{said.working}</summary>{answer}{HTML.blocks(exercise.working(part.label))}'
-        "</details>\n"
+        f'<details class="working"><summary>{said.working}</summary>{HTML.block(answer(exercise, part))}'
+        f"{HTML.blocks(exercise.working(part.label))}</details>\n"
     )
 
 

@@ -2,12 +2,13 @@
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import wrong_answers
+from rldrill.export.asked import Wrong, answer, typeset, wrong_answers
 from rldrill.export.words import page_words
+from rldrill.print.solved import with_mathematics
 from rldrill.print.words import Words, words
 from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.render.latex import latex_block, latex_document, latex_text
-from rldrill.render.mathematics.latex import latex_plain
+from rldrill.render.mathematics.latex import latex_plain, latex_typed
 from rldrill.solutions.effort import minutes_of, whole
 
 #: So many wrong answers to a part are told.
@@ -22,12 +23,15 @@ _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \fi
 \IfFileExists{lmodern.sty}{\usepackage{lmodern}}{}
 \usepackage{amsmath,amssymb,tikz,graphicx}
-%% What is wider than the line is made smaller.
+%% What is wider than the line is made smaller; what is tall stands on the line, where a page sees how tall it is.
 \newsavebox{\fittedbox}
 \newcommand{\fitted}[1]{\par\noindent\sbox{\fittedbox}{#1}%%
-  \ifdim\wd\fittedbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fittedbox}}\else\usebox{\fittedbox}\fi\par}
-%% A page ends rather before a problem than behind its first lines.
-\newcommand{\startproblem}{\par\vskip 0pt plus 8\baselineskip\penalty-200\vskip 0pt plus -8\baselineskip}
+  \ifdim\wd\fittedbox>\linewidth\sbox{\fittedbox}{\resizebox{\linewidth}{!}{\usebox{\fittedbox}}}\fi
+  \raisebox{\depth}{\usebox{\fittedbox}}\par}
+%% A page ends rather before a problem or a part than behind its first lines, and not before a list.
+\newcommand{\start}[1]{\par\vskip 0pt plus 8\baselineskip\penalty-#1\vskip 0pt plus -8\baselineskip}
+\makeatletter\@beginparpenalty=10000\makeatother
+\renewcommand{\arraystretch}{1.25}
 \setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}\setlength{\emergencystretch}{3em}
 \pagestyle{headandfoot}
 \firstpageheader{}{}{}
@@ -77,15 +81,16 @@ def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
 
 def _problem(exercise: Exercise, told: Words, *, with_solutions: bool) -> str:
     title = latex_text(exercise.problem.family.title)
-    parts = "\n".join(_part(exercise, part, told, with_solutions=with_solutions) for part in exercise.parts)
+    each = (_part(exercise, part, told, with_solutions=with_solutions) for part in exercise.parts)
+    parts = "\n\\start{100}\n".join(each)
     question = latex_document(exercise.question())
-    return f"\\startproblem\n\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
+    return f"\\start{{200}}\n\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
 
 
 def _part(exercise: Exercise, part: Part, told: Words, *, with_solutions: bool) -> str:
     options = ""
     if isinstance(part.kind, Choice):
-        choices = "\n".join(rf"\choice {latex_text(text)}" for text in part.kind.options.values())
+        choices = "\n".join(rf"\choice ({letter}) {latex_text(text)}" for letter, text in part.kind.options.items())
         options = f"\\begin{{checkboxes}}\n{choices}\n\\end{{checkboxes}}\n"
     elif isinstance(part.kind, YesNo):
         options = f"\\begin{{oneparcheckboxes}}\n\\choice {told.yes} \\choice {told.no}\n\\end{{oneparcheckboxes}}\n"
@@ -93,7 +98,7 @@ def _part(exercise: Exercise, part: Part, told: Words, *, with_solutions: bool) 
     space = "" if options else f"{max(2, whole(minutes_of(exercise.solution, part.label)))}cm"
     if not with_solutions:
         return f"{asked}\\vspace{{{space}}}\n" if space else asked
-    body = latex_document((exercise.answer(part), *exercise.working(part.label)))
+    body = latex_document((answer(exercise, part), *exercise.working(part.label)))
     wrong = _mistakes(exercise, part, told.mistakes)
     return f"{asked}\\begin{{solution}}{f'[{space}]' if space else ''}\n{body}{wrong}\\end{{solution}}\n"
 
@@ -101,8 +106,15 @@ def _part(exercise: Exercise, part: Part, told: Words, *, with_solutions: bool) 
 def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
     """Typical wrong answers, what is said of them, and the formula as it was read."""
     lines = "".join(
-        f"\\item {latex_text(', '.join(wrong.cells))}: {latex_text(wrong.says)}"
+        f"\\item {_typed(part, wrong)}: {latex_text(with_mathematics(wrong.says))}"
         f"{'' if wrong.read is None else latex_block(wrong.read)}\n"
         for wrong in wrong_answers(exercise, part, _MISTAKES)
     )
     return f"\n\\emph{{{latex_plain(title)}}}\n\\begin{{itemize}}\n{lines}\\end{{itemize}}\n" if lines else ""
+
+
+def _typed(part: Part, wrong: Wrong) -> str:
+    """A wrong answer, typeset; of a choice its letter."""
+    if isinstance(part.kind, Choice):
+        return f"({wrong.cells[0]})"
+    return r" \quad ".join(f"${latex_typed(line)}$" for line in typeset(part, wrong))

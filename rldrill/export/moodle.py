@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 
 from rldrill.exam.exam import Exam, Head, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
-from rldrill.export.words import page_words, typing_note
+from rldrill.export.asked import Cell, Word, Wrong, answer, cells, is_open, told_apart, wrong_answers
+from rldrill.export.words import note, page_words
 from rldrill.problems.parts import Choice, Matrix, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
@@ -71,16 +71,17 @@ def _html(question: ElementTree.Element, tag: str, text: str, writer: _Writer | 
 
 
 def _question(head: Head, number: int, exercise: Exercise, *, practice: bool) -> ElementTree.Element:
-    by_hand = any(is_open(cell) for part in exercise.parts for cell in cells(exercise, part))
+    asked = [cell for part in exercise.parts for cell in cells(exercise, part)]
+    by_hand = any(map(is_open, asked))
     question = ElementTree.Element("question", type="essay" if by_hand else "cloze")
     _text(ElementTree.SubElement(question, "name"), f"{number:02} {inline(exercise.problem.family.title)}")
     writer = _Writer(head)
-    note = page_words(head.language).by_hand if by_hand else typing_note(head, reads="both")
-    body = f"{writer.blocks(exercise.question())}<p><em>{note}</em></p>"
+    told = note(head, asked, reads="both")
+    body = writer.blocks(exercise.question()) + (f"<p><em>{told}</em></p>" if told else "")
     _html(question, "questiontext", body + "".join(_parts(writer, exercise, by_hand=by_hand)), writer)
     solved = _Writer(head)
     working = "".join(
-        solved.block(exercise.answer(part)) + solved.blocks(exercise.working(part.label)) for part in exercise.parts
+        solved.block(answer(exercise, part)) + solved.blocks(exercise.working(part.label)) for part in exercise.parts
     )
     _html(question, "generalfeedback", working if practice else "", solved if practice else None)
     if by_hand:

@@ -9,15 +9,15 @@ from html import escape
 
 from rldrill.exam.exam import Exam, Head, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, answer, cells, is_open, told_apart, wrong_answers
 from rldrill.export.packed import packed
-from rldrill.export.words import page_words, typing_note
+from rldrill.export.words import note
 from rldrill.problems.document import Equation, Table
-from rldrill.problems.mathematics import EMPTY, Math
+from rldrill.problems.mathematics import Math
 from rldrill.problems.parts import Choice, Matrix, Part, YesNo
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
-from rldrill.render.mathematics.mathml import element, relation
+from rldrill.render.mathematics.mathml import chain, element
 from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
@@ -51,11 +51,9 @@ class _Writer(LatexHtml):
     def equation(self, equation: Equation) -> str:
         """An equation in a paragraph of its own."""
         if equation.is_bare:
-            return f"<p>{' '.join(map(self.math, equation.rights))}</p>"
-        left = "" if equation.left == EMPTY else element(equation.left)
-        links = zip(equation.signs, equation.rights, strict=True)
-        rest = "".join(f"{relation(sign)}{element(right)}" for sign, right in links)
-        return f"<p>{_mathml(f'<mrow>{left}{rest}</mrow>')}</p>"
+            sides = "\u2003".join(map(self.math, equation.rights))
+            return f"<p>{sides}</p>"
+        return f"<p>{_mathml(chain(equation))}</p>"
 
     def picture(self, picture: Picture) -> str:
         """A picture as a file that the text refers to."""
@@ -123,18 +121,17 @@ def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercis
         _Asked(part, cells(exercise, part, head.language), tuple(wrong_answers(exercise, part)))
         for part in exercise.parts
     ]
-    by_hand = any(is_open(cell) for each in asked for cell in each.cells)
     label = len(exercise.parts) > 1
-    note = page_words(head.language).by_hand if by_hand else typing_note(head, reads="point")
+    told = note(head, [cell for each in asked for cell in each.cells], reads="point")
     body = "".join(each.body(writer, label=label) for each in asked)
-    question = writer.blocks(exercise.question())
+    question = writer.blocks(exercise.question()) + (f"<p><em>{told}</em></p>" if told else "")
     conditions, feedback = [], []
     for each in asked:
-        for condition, told in each.judged():
+        for condition, says in each.judged():
             conditions.append(condition)
-            feedback += told
+            feedback += says
     if practice:
-        working = "".join(writer.block(exercise.answer(part)) + writer.blocks(exercise.working(part.label))
+        working = "".join(writer.block(answer(exercise, part)) + writer.blocks(exercise.working(part.label))
                           for part in exercise.parts)  # fmt: skip
         feedback.append((_WORKING, f"<div>{working}</div>"))
         conditions.append(_tell(_WORKING))
@@ -149,7 +146,7 @@ def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercis
         f'<outcomeDeclaration identifier="SCORE" cardinality="single" baseType="float" '
         f'normalMaximum="{points_of(exercise)}"><defaultValue><value>0</value></defaultValue></outcomeDeclaration>\n'
         '<outcomeDeclaration identifier="FEEDBACK" cardinality="multiple" baseType="identifier"/>\n'
-        f"<itemBody>\n{question}<p><em>{note}</em></p>\n{body}</itemBody>\n"
+        f"<itemBody>\n{question}\n{body}</itemBody>\n"
         f"<responseProcessing>\n{''.join(conditions)}</responseProcessing>\n{modal}</assessmentItem>\n"
     )
 

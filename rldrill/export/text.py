@@ -1,12 +1,15 @@
 """An exam as Markdown, with GitHub's mathematics, and as JSON."""
 
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TypeAlias
 
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
+from rldrill.export.asked import answer
 from rldrill.export.words import page_words
 from rldrill.print.words import words, written_points
+from rldrill.problems.document import Block
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.markdown import markdown, markdown_plain, markdown_text
 
@@ -15,14 +18,26 @@ _MISTAKES = 8
 
 #: What stands before and after the answer to a part: folded away on the web, below a line in bold letters elsewhere.
 FOLDED, BELOW = ("<details><summary>{}</summary>", "</details>"), ("**{}**",)
+#: How the blocks of a page are written.
+Writer: TypeAlias = Callable[[Iterable[Block]], str]
 
 
-def markdown_exam(exam: Exam, version: Version, *, practice: bool, answers: Sequence[str] = FOLDED) -> str:
-    """A version as Markdown; for practice with answer and working behind each part."""
-    return "\n\n".join(_lines(exam, version, answers if practice else ())) + "\n"
+def markdown_exam(
+    exam: Exam, version: Version, *, practice: bool, answers: Sequence[str] = FOLDED, written: Writer = markdown
+) -> str:
+    """A version as Markdown; for practice with answer and working behind each part.
+
+    Args:
+        exam: the exam.
+        version: which of its versions.
+        practice: whether it is for practice.
+        answers: what stands before and after the answers.
+        written: how blocks are written.
+    """
+    return "\n\n".join(_lines(exam, version, answers if practice else (), written)) + "\n"
 
 
-def _lines(exam: Exam, version: Version, answers: Sequence[str]) -> Iterator[str]:
+def _lines(exam: Exam, version: Version, answers: Sequence[str], written: Writer) -> Iterator[str]:
     told, head = words(exam.head.language), exam.head
     code = f" ({told.version} {version.code})" if len(exam.versions) > 1 else ""
     yield f"# {markdown_plain(head.title)}{code}"
@@ -34,18 +49,19 @@ def _lines(exam: Exam, version: Version, answers: Sequence[str]) -> Iterator[str
     for number, exercise in enumerate(version.exercises, 1):
         worth = written_points(told, points_of(exercise))
         yield f"## {told.problem} {number}: {markdown_text(exercise.problem.family.title)} ({worth})"
-        yield markdown(exercise.question())
+        yield written(exercise.question())
         for part in exercise.parts:
-            yield from _part(exercise, part, [each.format(page_words(head.language).working) for each in answers])
+            around = [each.format(page_words(head.language).working) for each in answers]
+            yield from _part(exercise, part, around, written)
 
 
-def _part(exercise: Exercise, part: Part, answers: Sequence[str]) -> Iterator[str]:
+def _part(exercise: Exercise, part: Part, answers: Sequence[str], written: Writer) -> Iterator[str]:
     yield f"**({part.label})** {markdown_text(part.ask)}"
     if isinstance(part.kind, Choice):
         yield "\n".join(f"- ({letter}) {markdown_text(text)}" for letter, text in part.kind.options.items())
     if answers:
         yield answers[0]
-        yield markdown((exercise.answer(part), *exercise.working(part.label)))
+        yield written((answer(exercise, part), *exercise.working(part.label)))
         yield from answers[1:]
 
 

@@ -1,12 +1,13 @@
 """The fixed words of pages and of other programs, in each language; problems themselves are in English."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from msgspec import Struct
 
 from rldrill.exam.choices import Language
 from rldrill.exam.exam import Head
+from rldrill.export.asked import Cell, Quantity, is_open
 
 
 class PageWords(Struct, frozen=True):
@@ -72,6 +73,13 @@ _WORDS = {
 def page_words(language: Language) -> PageWords:
     """The words of a language."""
     return _WORDS[language]
+
+
+def note(head: Head, asked: Sequence[Cell], *, reads: Literal["both", "point", "language"]) -> str:
+    """What stands above the boxes of a problem in another program, as ``typing_note`` says it; nothing for words."""
+    if any(map(is_open, asked)):
+        return page_words(head.language).by_hand
+    return typing_note(head, reads=reads) if any(isinstance(cell, Quantity) for cell in asked) else ""
 
 
 def typing_note(head: Head, *, reads: Literal["both", "point", "language"]) -> str:

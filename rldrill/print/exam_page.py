@@ -33,7 +33,7 @@ def setup(exam: Exam, version: Version, what: str, *, to_fill_in: bool) -> str:
         f"{typst_file('rldrill.print', 'exam.typ')}{PREAMBLE}"
         f"#show: exam-page.with(paper: {quoted(TYPST_PAPERS[exam.layout.paper])}, lang: {quoted(exam.head.language)}, "
         f"title: {quoted(f'{exam.head.title} – {what}')}, what: [{plain(what + seed)}], "
-        f"{who})\n"
+        f"{who}problem: [{plain(told.problem)}])\n"
     )
 
 

@@ -50,13 +50,13 @@ def _earned(blocks: tuple[Block, ...], points: int) -> str:
 
 def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
     rows = [
-        f"([{given}], [{text(_with_mathematics(mistake.says))}{_read(exercise, mistake)}])"
+        f"([{given}], [{text(with_mathematics(mistake.says))}{_read(exercise, mistake)}])"
         for given, mistake in _wrong(exercise, part)
     ]
     return f"#mistakes([{plain(title)}], {', '.join(rows)})\n" if rows else ""
 
 
-def _with_mathematics(sentence: str) -> str:
+def with_mathematics(sentence: str) -> str:
     """A sentence for every screen, with what it names as a formula would write it: ``V^π`` and ``Q*``."""
     return _NAMED.sub(r"$\1^\2\3$", sentence)
 

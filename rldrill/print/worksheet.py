@@ -33,7 +33,10 @@ def worksheet_source(exam: Exam, version: Version) -> str:
     """The worksheet that is handed out, as Typst source; with the solutions in it where they are wanted inline."""
     told = words(exam.head.language)
     what = f"{told.version} {version.code}"
-    problems = "".join(_problem(exam, index, item) for index, item in enumerate(version.exercises, 1))
+    count = len(version.exercises)
+    problems = "".join(
+        _problem(exam, index, item, together=index == count) for index, item in enumerate(version.exercises, 1)
+    )
     lines = f"{_points_tables(version, told)}#par[{_instructions(exam, version, told)}]\n"
     head = setup(exam, version, what, to_fill_in=True)
     return f"{head}{front(exam, what, lines)}{problems}{ending(exam, told)}"
@@ -63,19 +66,23 @@ def _points_tables(version: Version, told: Words) -> str:
     return "".join(result)
 
 
-def _problem(exam: Exam, index: int, exercise: Exercise) -> str:
-    asked = "".join(_part(exam, exercise, part) for part in exercise.parts)
+def _problem(exam: Exam, index: int, exercise: Exercise, *, together: bool) -> str:
+    """A problem; the parts of the last one stay together, so that none of them is alone on the last page."""
+    *before, last = exercise.parts
+    asked = "".join(_part(exam, exercise, part, together=together) for part in before)
+    asked += _part(exam, exercise, last, together=False)
     question = document(exercise.question())
     return f"{heading(exam, index, exercise, identified=exam.layout.ids)}#statement[{question}]\n{asked}"
 
 
-def _part(exam: Exam, exercise: Exercise, part: Part) -> str:
+def _part(exam: Exam, exercise: Exercise, part: Part, *, together: bool) -> str:
     told = words(exam.head.language)
     ask = f"#asked([{label(exercise, part.label)}], [{text(part.ask)}], [{part.points}])\n"
     if exam.layout.solutions == "inline":
         return f"{ask}{options(part)}{solved_part(exam, exercise, part)}"
     space = space_of(exercise, part, exam.layout.space)
-    return f"{ask}#working({float(space):.1f}cm, {float(space):.1f})\n#field[{_field(exercise, part, told)}]\n"
+    kept = "(together: true)" if together else ""
+    return f"{ask}#working({float(space):.1f}cm, {float(space):.1f})\n#field{kept}[{_field(exercise, part, told)}]\n"
 
 
 def space_of(exercise: Exercise, part: Part, space: str) -> Fraction:

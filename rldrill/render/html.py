@@ -4,11 +4,12 @@ from collections.abc import Iterable
 from html import escape
 
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
-from rldrill.problems.mathematics import EMPTY, Math
+from rldrill.problems.mathematics import Math
 from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.markdown import latex_block_equation
 from rldrill.render.mathematics.latex import latex
-from rldrill.render.mathematics.mathml import element, mathml, relation
+from rldrill.render.mathematics.mathml import chain, mathml
+from rldrill.render.mathematics.spacing import parted
 from rldrill.render.mathematics.unicode import inline, unicode
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
@@ -26,7 +27,14 @@ class Html:
 
     def text(self, text: str) -> str:
         """Running text with its mathematics."""
-        return "".join(escape(piece) if isinstance(piece, str) else self.math(piece) for piece in pieces(text))
+        return "".join(self.words(piece) if isinstance(piece, str) else self.math(piece) for piece in pieces(text))
+
+    def words(self, text: str) -> str:
+        """Text without mathematics; no line ends behind the hyphen of Q-learning."""
+        return "".join(
+            f'<span class="unparted">{escape(piece)}</span>' if whole else escape(piece)
+            for piece, whole in parted(text)
+        )
 
     def math(self, math: Math) -> str:
         """Mathematics within a line; what is long is moved sideways where the screen is narrower."""
@@ -69,22 +77,10 @@ class Html:
 
     def equation(self, equation: Equation) -> str:
         """An equation, its right sides one under the other."""
-        links = list(zip(equation.signs, equation.rights, strict=True))
         if equation.is_bare:  # mathematics that stands side by side where there is room
             sides = "".join(f'<span class="wide">{self.math(right)}</span>' for right in equation.rights)
             return f'<div class="flow">{sides}</div>'
-        left = "" if equation.left == EMPTY else element(equation.left)
-        if len(links) == 1:
-            ((sign, right),) = links
-            line = f"<mrow>{left}{relation(sign)}{element(right)}</mrow>"
-            return _wide(f'<math display="block">{line}</math>', "Formula")
-        lefts = (left, *[""] * (len(links) - 1))
-        lines = "".join(
-            f"<mtr><mtd>{before}</mtd><mtd><mrow>{relation(sign)}{element(right)}</mrow></mtd></mtr>"
-            for before, (sign, right) in zip(lefts, links, strict=True)
-        )
-        table = f'<mtable class="chain" displaystyle="true">{lines}</mtable>'
-        return _wide(f'<math display="block">{table}</math>', "Formula")
+        return _wide(f'<math display="block">{chain(equation)}</math>', "Formula")
 
     def picture(self, picture: Picture) -> str:
         """A picture; nothing where it cannot be drawn readably."""
@@ -106,22 +102,27 @@ class Html:
 
 
 class LatexHtml(Html):
-    """Writes blocks as HTML with LaTeX between ``\\(`` and ``\\)``, as MathJax reads it; tables go without styles."""
+    """Writes blocks as HTML with LaTeX between ``\\(`` and ``\\)``, as MathJax reads it, and without styles."""
 
     def math(self, math: Math) -> str:
         """Mathematics within a line."""
         return escape(rf"\({latex(math)}\)")
 
+    def words(self, text: str) -> str:
+        """Text without mathematics, and nothing else."""
+        return escape(text)
+
     def table(self, table: Table) -> str:
-        """A table, and nothing around it."""
+        """A table with lines, which few programs draw by themselves."""
         lines = [f"<tr>{''.join(f'<th>{self.text(cell)}</th>' for cell in table.header)}</tr>"]
         lines += [f"<tr>{''.join(f'<td>{self.text(cell)}</td>' for cell in line)}</tr>" for line in table.rows]
-        return f"<table>{''.join(lines)}</table>"
+        return f'<table border="1" cellpadding="4">{"".join(lines)}</table>'
 
     def equation(self, equation: Equation) -> str:
         """An equation on lines of its own."""
         if equation.is_bare:
-            return f"<p>{' &emsp; '.join(map(self.math, equation.rights))}</p>"
+            sides = (escape(rf"\(\displaystyle {latex(right)}\)") for right in equation.rights)
+            return f"<p>{' &emsp; '.join(sides)}</p>"
         written = rf"\[{latex_block_equation(equation)}\]"
         return f"<p>{escape(written)}</p>"
 

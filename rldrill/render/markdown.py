@@ -1,7 +1,7 @@
 """Documents as Markdown, their mathematics in LaTeX: for notebooks and files."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
 from rldrill.problems.mathematics import Glyph, Math
@@ -12,13 +12,26 @@ from rldrill.render.unicode import unicode_text
 _SPECIAL = re.compile(r"([\\`*_\[\]<$#|])")
 
 
-def markdown(blocks: Iterable[Block]) -> str:
-    """Blocks one under the other."""
-    return "\n\n".join(map(markdown_block, blocks))
+def _in_text(picture: Picture) -> str:
+    return f"```text\n{unicode_text(picture)}\n```"
+
+
+def markdown(blocks: Iterable[Block], drawn: Callable[[Picture], str] = _in_text) -> str:
+    """Blocks one under the other.
+
+    Args:
+        blocks: the blocks.
+        drawn: how a picture is written; with signs, if nothing else is said.
+    """
+    return "\n\n".join(_block(each, drawn) for each in blocks)
 
 
 def markdown_block(block: Block) -> str:
     """One block."""
+    return _block(block, _in_text)
+
+
+def _block(block: Block, drawn: Callable[[Picture], str]) -> str:
     match block:
         case Paragraph(text):
             return markdown_text(text)
@@ -30,9 +43,9 @@ def markdown_block(block: Block) -> str:
         case Equation():
             return f"$${latex_block_equation(block)}$$"
         case Beside(blocks):
-            return markdown(blocks)
+            return markdown(blocks, drawn)
         case Picture():
-            return f"```text\n{unicode_text(block)}\n```"
+            return drawn(block)
         case _:
             raise TypeError(f"{type(block).__name__} has no Markdown")
 

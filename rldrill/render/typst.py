@@ -107,7 +107,7 @@ def document(blocks: Document, room: float = PAGE) -> str:
     """
     result: list[str] = []
     waiting: list[str] = []
-    for item in (*_announced_together(blocks, room), None):
+    for item in (*_announced_together(tuple(_short_ones_apart(blocks)), room), None):
         if isinstance(item, Equation) and _is_short(item):
             waiting.append(f"({quoted(unicode_text(item))}, ${line(item)}$)")
             continue
@@ -122,6 +122,15 @@ def document(blocks: Document, room: float = PAGE) -> str:
         elif item is not None:
             result.append(block(item, room))
     return "".join(result)
+
+
+def _short_ones_apart(blocks: Document) -> Iterator[Block]:
+    """The blocks; short equations side by side may stand on a line with those that follow."""
+    for item in blocks:
+        if isinstance(item, Beside) and all(isinstance(each, Equation) and _is_short(each) for each in item.blocks):
+            yield from item.blocks
+        else:
+            yield item
 
 
 class _Announced(Struct, frozen=True):

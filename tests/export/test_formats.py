@@ -16,16 +16,21 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from flint import fmpq
 from msgspec.structs import replace
 
 import rldrill
 from rldrill.exam.exam import Exam, Head, Version
 from rldrill.exam.planning import version_code
 from rldrill.exam.roster import Person
+from rldrill.export.asked import Wrong, answer, cells, typeset
 from rldrill.export.formats import FORMATS, check, export, format_of, named, version_path
-from rldrill.problems.document import Table
+from rldrill.export.words import note
+from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.errors import UsageError
+from rldrill.problems.parts import Number, Part
 from rldrill.render.html import Html
+from rldrill.render.mathematics.latex import latex
 
 PROBLEMS = [
     "td-zero/2/234",
@@ -108,9 +113,9 @@ def test_every_box_of_moodle_has_the_key_the_tolerance_and_the_mistakes(tmp_path
     assert len(boxes) == 5
     for _, answers in boxes:
         known: list[tuple[Decimal, Decimal]] = []
-        for answer in re.split(r"(?<!\\)~", answers):
-            found = re.fullmatch(r"(?:=|%0%)(-?[0-9.]+(?:e[+-]?\d+)?):([0-9.]+)#.+", answer, re.DOTALL)
-            assert found, answer
+        for told in re.split(r"(?<!\\)~", answers):
+            found = re.fullmatch(r"(?:=|%0%)(-?[0-9.]+(?:e[+-]?\d+)?):([0-9.]+)#.+", told, re.DOTALL)
+            assert found, told
             value, bound = Decimal(found[1]), Decimal(found[2])
             assert all(abs(value - other) > bound + room for other, room in known), "two answers in one range"
             known.append((value, bound))
@@ -344,9 +349,19 @@ def test_choices_and_matrices_of_a_page_are_buttons_and_boxes_in_their_columns(t
     ]  # fmt: skip
 
 
+def test_word_gets_pictures_as_pictures_with_what_they_show(tmp_path: Path) -> None:
+    pytest.importorskip("pypandoc")
+    with zipfile.ZipFile(io.BytesIO(other("docx", tmp_path))) as document:
+        text = document.read("word/document.xml").decode()
+        pictures = [document.read(name) for name in document.namelist() if name.endswith(".png")]
+    assert pictures
+    assert all(each.startswith(b"\x89PNG") for each in pictures)
+    assert 'descr="State diagram of ' in text
+
+
 def test_choices_and_matrices_of_latex_moodle_and_qti(tmp_path: Path) -> None:
     latex = other("latex", tmp_path).decode()
-    assert "\\begin{checkboxes}\n\\choice small\n\\choice large\n\\end{checkboxes}\n" in latex
+    assert "\\begin{checkboxes}\n\\choice (A) small\n\\choice (B) large\n\\end{checkboxes}\n" in latex
     assert "\\begin{oneparcheckboxes}\n\\choice yes \\choice no\n\\end{oneparcheckboxes}\n" in latex
 
     assert "Q^π" in other("json", tmp_path).decode()
@@ -406,3 +421,20 @@ def test_what_is_there_is_replaced_only_by_force(tmp_path: Path) -> None:
         check(exam, path, FORMATS["latex"], force=False)
     check(exam, path, FORMATS["latex"], force=True)
     check(exam, tmp_path / "none" / "x.tex", FORMATS["latex"], force=True)  # the folder is made
+
+
+def test_what_is_only_chosen_is_told_nothing_of_decimals() -> None:
+    chosen, typed = (rldrill.load(name) for name in ("backup-diagram-name/2/13", "td-zero/1/1"))
+    asked = [[cell for part in each.parts for cell in cells(each, part)] for each in (chosen, typed)]
+    assert note(Head(), asked[0], reads="both") == ""
+    assert "0.667" in note(Head(), asked[0] + asked[1], reads="both")
+    open_ = rldrill.load("policy-value/3/12")
+    assert "by hand" in note(Head(), cells(open_, open_.parts[0]), reads="both")
+
+
+def test_the_right_choice_is_told_in_words_and_a_wrong_number_as_it_is_written_by_hand() -> None:
+    chosen = rldrill.load("backup-diagram-name/2/13")
+    assert answer(chosen, chosen.parts[0]) == Paragraph("(B) the Monte Carlo method for state values")
+    part = Part("?", Number(), label="a")
+    wrong = Wrong(("-1/8",), fmpq(-1, 8), "", None)
+    assert [latex(line) for line in typeset(part, wrong)] == [r"- \frac{1}{8} = - 0.125"]

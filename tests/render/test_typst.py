@@ -32,8 +32,11 @@ from rldrill.problems.mathematics import (
     operator,
     row,
     variable,
+    with_one_index,
     word,
 )
+from rldrill.render.mathematics.latex import latex
+from rldrill.render.mathematics.mathml import mathml
 from rldrill.render.mathematics.typst import text, typst
 from rldrill.render.mathematics.width import width, width_of_line
 from rldrill.render.typst import PAGE, block, document
@@ -254,3 +257,30 @@ def test_a_letter_and_its_word_stay_on_one_line(word: str) -> None:
         page = f"#set page(width: {narrow}pt, height: 400pt, margin: 2pt)\n"
         made = pypdf.PdfReader(io.BytesIO(pdf(page + text(f"Sarsa and then {word}, or a state-action pair"))))
         assert word in made.pages[0].extract_text(), narrow
+
+
+def test_an_index_of_what_has_one_stands_beside_it_in_every_notation() -> None:
+    entry = Script(Script(Glyph("A", "variable"), Glyph("Δ", "variable")), Glyph("13", "number"))
+    assert typst(entry) == r"attach(A, b: \u{394} \, 13)"
+    assert latex(entry) == r"A_{\Delta , 13}"
+    assert mathml(entry).count("<msub>") == 1
+    power = Script(Script(Glyph("A", "variable"), Glyph("t", "variable")), above=Glyph("T", "word"))
+    assert with_one_index(power) == power
+
+
+def test_a_comma_has_its_space_before_a_sign_and_a_fraction() -> None:
+    assert typst(mathematics("(-1,-2)")) == r'lr(paren.l class("unary", minus) 1 \, thin minus 2 paren.r)'
+    assert typst(mathematics("0,1/2")) == r"0 \, thin frac(1, 2)"
+    assert typst(mathematics("a,b_t")) == r"a \, attach(b, b: t)"
+
+
+def test_a_long_equation_in_a_text_is_broken_before_its_relations_only() -> None:
+    written = text("$L_t = (R_t + B^⊤ S_{t+1} B)^{-1} B^⊤ S_{t+1} A = X_t + (R_t + B^⊤ S_{t+1} B)^{-1} B^⊤ S_{t+1} A$")
+    sides = re.findall(r'#(kept|eq)\("([^"]*)"', written)
+    assert [(how, said[:5].strip()) for how, said in sides] == [("kept", "Lₜ ="), ("kept", "= Xₜ")]
+    assert len(re.findall(r"#kept", text("$a = b$"))) == 1
+
+
+def test_short_equations_side_by_side_share_a_line_with_those_that_follow() -> None:
+    one, two, three = (Equation(Glyph(sign, "variable"), (Glyph("1", "number"),), ("=",)) for sign in "abc")
+    assert document((Beside((one, two)), three)).count("#flow") == 1

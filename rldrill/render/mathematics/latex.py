@@ -1,5 +1,6 @@
 """Mathematics as LaTeX, for Markdown, notebooks and flash cards."""
 
+import re
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -16,8 +17,9 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     is_sign,
+    with_one_index,
 )
-from rldrill.render.mathematics.spacing import needs_space
+from rldrill.render.mathematics.spacing import is_tall, needs_space, parted
 from rldrill.render.mathematics.unicode import ABOVE, BELOW, unmarked
 
 _COMMANDS = {
@@ -35,17 +37,25 @@ _SPELLED = {
     "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "#": r"\#", "$": r"\$",
     "%": r"\%", "&": r"\&", "_": r"\_", "{": r"\{", "}": r"\}", "–": "--", "—": "---", "“": "``", "”": "''", "’": "'",
     "…": r"\dots{}",
-    "√": r"\ensuremath{\surd}", "′": r"\ensuremath{'}", "\u200b": "", "\u0302": "", "\u0304": "", "\u0303": "",
+    "√": r"\ensuremath{\surd}", "Σ": r"\ensuremath{\Sigma}",
+    "′": r"\ensuremath{'}", "\u200b": "", "\u0302": "", "\u0304": "", "\u0303": "",
 }  # fmt: skip
 _LOWERED = {small: _COMMANDS.get(sign, sign) for sign, small in BELOW.items()}
 _RAISED = {small: _COMMANDS.get(sign, sign) for sign, small in ABOVE.items()}
 _PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
+#: A letter or word with its own index and primes: ``s₁′``.
+_NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
+_DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _OPERATORS = {Glyph(word, "word") for word in _PLAIN_WORDS}
 
 
 def latex_plain(text: str) -> str:
-    """Text without mathematics: every sign of it stands for itself, also those that only mathematics has."""
-    return "".join(map(_spelled, text))
+    """Text without mathematics: every sign of it stands for itself, also those that only mathematics has.
+
+    No line ends behind the hyphen of Q-learning.
+    """
+    spelled = (("".join(map(_spelled, piece)), whole) for piece, whole in parted(text))
+    return "".join(rf"\mbox{{{piece}}}" if whole else piece for piece, whole in spelled)
 
 
 def latex_typed(math: Math) -> str:
@@ -77,13 +87,16 @@ def latex(math: Math) -> str:
             return " ".join(_spaced(items))
         case Fraction(numerator, denominator):
             return rf"\frac{{{latex(numerator)}}}{{{latex(denominator)}}}"
-        case Script(body, below, above):
-            base = latex(body) if isinstance(body, Glyph) and body.style != "word" else f"{{{latex(body)}}}"
-            return base + _limits(below, above)
+        case Script():
+            return _script(with_one_index(math))
         case Fence(body, left, right):
-            return rf"\left{_fence(left)} {latex(body)} \right{_fence(right)}"
+            if is_tall(body):
+                return rf"\left{_fence(left)} {latex(body)} \right{_fence(right)}"
+            room = " " if left in _COMMANDS else ""
+            return f"{_bracket(left)}{room}{latex(body)}{room}{_bracket(right)}"
         case Big(sign, below, above):
-            return _COMMANDS.get(sign, rf"\operatorname*{{{sign}}}") + _limits(below, above)
+            base = _COMMANDS.get(sign, rf"\operatorname*{{{sign}}}")
+            return base + _scripts(_optional(below), _optional(above))
         case Root(body):
             return rf"\sqrt{{{latex(body)}}}"
         case Accent(body, mark):
@@ -96,6 +109,13 @@ def latex(math: Math) -> str:
             return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"
 
 
+def _script(script: Script) -> str:
+    body, below, above = script.body, _optional(script.below), _optional(script.above)
+    if isinstance(body, Glyph):
+        return _glyph(body.text, body.style, below, above)
+    return f"{{{latex(body)}}}{_scripts(below, above)}"
+
+
 def _spaced(items: tuple[Math, ...]) -> Iterator[str]:
     """What stands side by side, with a space where a word needs one; an operator such as ln has its own."""
     bare = [unmarked(item) for item in items]
@@ -106,23 +126,38 @@ def _spaced(items: tuple[Math, ...]) -> Iterator[str]:
 
 
 def _fence(sign: str) -> str:
-    """A bracket that grows; none at all is a full stop to LaTeX, and a bar is no relation here."""
-    return {"": ".", "|": "|"}.get(sign) or _COMMANDS.get(sign, sign)
+    """A bracket that grows; none at all is a full stop to LaTeX."""
+    return _bracket(sign) or "."
+
+
+def _bracket(sign: str) -> str:
+    """A bracket; a bar is no relation here."""
+    return "|" if sign == "|" else _COMMANDS.get(sign, sign)
 
 
 @lru_cache(maxsize=1024)  # the same letters stand everywhere
-def _glyph(text: str, style: str) -> str:
-    stem = text.rstrip("′")
-    primes = "'" * (len(text) - len(stem))
+def _glyph(text: str, style: str, below: str = "", above: str = "") -> str:
+    """A glyph with its scripts; of its own it has those of ``s₁′``."""
+    if style not in ("variable", "word"):  # a comma within a number, and none behind which there is room
+        sign = text.replace(",", "{,}") if style == "number" else _COMMANDS.get(text, text)
+        return sign + _scripts(below, above)
+    match = _NAME.fullmatch(text)
+    assert match is not None
+    lower = " , ".join(filter(None, (match["digits"].translate(_DIGITS), below)))
+    return _named(match["stem"], style) + "'" * len(match["primes"]) + _scripts(lower, above)
+
+
+def _named(stem: str, style: str) -> str:
     if style == "word" and stem not in _PLAIN_WORDS:
-        return rf"\text{{{''.join(_COMMANDS.get(sign, sign) if sign in '%_#&{}' else sign for sign in stem)}}}" + primes
+        return rf"\text{{{''.join(_COMMANDS.get(sign, sign) if sign in '%_#&{}' else sign for sign in stem)}}}"
     if style == "variable" and stem == "Σ":  # a matrix of covariances, no sum
-        return r"\Sigma" + primes
-    if style == "number":  # a comma within a number, and none behind which there is room
-        return text.replace(",", "{,}")
-    return _COMMANDS.get(stem, stem) + primes
+        return r"\Sigma"
+    return _COMMANDS.get(stem, stem)
 
 
-def _limits(below: Math | None, above: Math | None) -> str:
-    lower = "" if below is None else f"_{{{latex(below)}}}"
-    return lower + ("" if above is None else f"^{{{latex(above)}}}")
+def _scripts(below: str, above: str) -> str:
+    return (f"_{{{below}}}" if below else "") + (f"^{{{above}}}" if above else "")
+
+
+def _optional(math: Math | None) -> str:
+    return "" if math is None else latex(math)

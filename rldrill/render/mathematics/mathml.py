@@ -4,7 +4,9 @@ import re
 from collections.abc import Sequence
 from html import escape
 
+from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import (
+    EMPTY,
     Accent,
     Big,
     Fence,
@@ -17,8 +19,9 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     is_sign,
+    with_one_index,
 )
-from rldrill.render.mathematics.spacing import needs_space
+from rldrill.render.mathematics.spacing import is_tall, needs_space
 from rldrill.render.mathematics.unicode import unmarked
 
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
@@ -49,10 +52,10 @@ def element(math: Math) -> str:
             return f"<mrow>{_row(items)}</mrow>"
         case Fraction(numerator, denominator):
             return f"<mfrac>{element(numerator)}{element(denominator)}</mfrac>"
-        case Script(body, below, above):
-            return _script(body, below, above)
+        case Script():
+            return _script(with_one_index(math))
         case Fence(body, left, right):
-            grows = _is_tall(body)
+            grows = is_tall(body)
             brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)
             return f"<mrow>{brackets[0]}{element(body)}{brackets[1]}</mrow>"
         case Big(sign, below, above):
@@ -68,7 +71,22 @@ def element(math: Math) -> str:
             return f"<mrow>{_fence(left, 'prefix')}<mtable>{lines}</mtable>{_fence(right, 'postfix')}</mrow>"
 
 
-def relation(sign: str) -> str:
+def chain(equation: Equation) -> str:
+    """An equation as one element, its right sides one under the other."""
+    left = "" if equation.left == EMPTY else element(equation.left)
+    links = list(zip(equation.signs, equation.rights, strict=True))
+    if len(links) == 1:
+        ((sign, right),) = links
+        return f"<mrow>{left}{_relation(sign)}{element(right)}</mrow>"
+    lefts = (left, *[""] * (len(links) - 1))
+    lines = "".join(
+        f"<mtr><mtd>{before}</mtd><mtd><mrow>{_relation(sign)}{element(right)}</mrow></mtd></mtr>"
+        for before, (sign, right) in zip(lefts, links, strict=True)
+    )
+    return f'<mtable class="chain" displaystyle="true">{lines}</mtable>'
+
+
+def _relation(sign: str) -> str:
     """The sign between two sides; nothing where there is none."""
     return f"<mo>{escape(sign)}</mo>" if sign else ""
 
@@ -79,18 +97,6 @@ def _fence(sign: str, form: str, *, grows: bool = True) -> str:
         return ""
     stretchy = "true" if grows else "false"
     return f'<mo fence="true" stretchy="{stretchy}" form="{form}" lspace="0" rspace="0">{escape(sign)}</mo>'
-
-
-def _is_tall(math: Math) -> bool:
-    match math:
-        case Fraction() | Tabular() | Big():
-            return True
-        case Row(items):
-            return any(map(_is_tall, items))
-        case Glyph():
-            return False
-        case _:
-            return _is_tall(math.body)
 
 
 def _big(sign: str) -> str:
@@ -137,7 +143,8 @@ def _sign(text: str, style: str) -> str:
             return f"<mo>{shown}</mo>"
 
 
-def _script(body: Math, below: Math | None, above: Math | None) -> str:
+def _script(script: Script) -> str:
+    body, below, above = script.body, script.below, script.above
     base, digits, primes = _taken_apart(body) if isinstance(body, Glyph) else (element(body), "", "")
     lower = [part for part in (digits, "" if below is None else element(_on_one_line(below))) if part]
     upper = [part for part in (primes, "" if above is None else element(_on_one_line(above))) if part]

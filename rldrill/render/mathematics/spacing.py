@@ -1,6 +1,19 @@
-"""Where words in mathematics need a space, which no writer of mathematics leaves by itself."""
+"""What no writer does by itself: where words need a space, which brackets grow, and where no line may end."""
 
-from rldrill.problems.mathematics import Accent, Fence, Fraction, Glyph, Math, Script
+import re
+from collections.abc import Iterator
+
+from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Row, Script, Tabular
+
+#: What is not parted behind its hyphen: Q-learning, n-step.
+_LETTER_AND_WORD = re.compile(r"(?<![\w-])([^\W\d_]-[^\W\d_]+)(?![\w-])")
+
+
+def parted(text: str) -> Iterator[tuple[str, bool]]:
+    """A text in pieces, and of each whether no line may end in it."""
+    for number, piece in enumerate(_LETTER_AND_WORD.split(text)):
+        if piece:
+            yield piece, number % 2 == 1
 
 
 def needs_space(before: Math, item: Math) -> bool:
@@ -8,6 +21,19 @@ def needs_space(before: Math, item: Math) -> bool:
     return (_is_word(before) and (_is_name(item) or isinstance(item, Fraction | Accent))) or (
         _is_word(item) and (_is_name(before) or isinstance(before, Fence))
     )
+
+
+def is_tall(math: Math) -> bool:
+    """Whether brackets around it are larger than those of a letter."""
+    match math:
+        case Fraction() | Tabular() | Big():
+            return True
+        case Row(items):
+            return any(map(is_tall, items))
+        case Glyph():
+            return False
+        case _:
+            return is_tall(math.body)
 
 
 def _is_word(math: Math) -> bool:

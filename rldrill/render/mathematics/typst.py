@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import (
+    EMPTY,
     Accent,
     Big,
     Fence,
@@ -20,7 +21,9 @@ from rldrill.problems.mathematics import (
     Script,
     Style,
     Tabular,
+    with_one_index,
 )
+from rldrill.render.mathematics.spacing import parted
 from rldrill.render.mathematics.unicode import unicode
 
 _FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tr", "det"}
@@ -41,12 +44,10 @@ _ACCENTS = {"hat": "hat", "bar": "overline", "tilde": "tilde"}
 CLASSES: dict[Style, str] = {"operator": "binary", "relation": "relation", "punctuation": "punctuation"}
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
 _SEPARATORS = (Glyph(",", "punctuation"), Glyph(";", "punctuation"))
-_MINUS = Glyph("−", "operator")
+_COMMA, _MINUS = Glyph(",", "punctuation"), Glyph("−", "operator")
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
-#: Equations of at most this many signs stand side by side.
-SHORT = 24
-#: What is not parted behind its hyphen: Q-learning, n-step.
-_LETTER_AND_WORD = re.compile(r"(?<![\w-])([^\W\d_]-[^\W\d_]+)(?![\w-])")
+#: Equations of at most this many signs stand side by side, and are not broken; nor is a side of at most so many.
+SHORT, _SIDE = 24, 48
 
 
 def typst(math: Math) -> str:
@@ -58,8 +59,8 @@ def typst(math: Math) -> str:
             return typst_row(items)
         case Fraction(numerator, denominator):
             return f"frac({typst(numerator)}, {typst(denominator)})"
-        case Script(body, below, above):
-            return _script(body, below, above)
+        case Script():
+            return _script(with_one_index(math))
         case Fence(body, left, right):
             return f"lr({typst_fence(left)} {typst(body)} {typst_fence(right)})"
         case Big(sign, below, above):
@@ -94,15 +95,27 @@ def _inline(math: Math) -> str:
     items = math.items if isinstance(math, Row) else (math,)
     groups = grouped(items, lambda before, _: before in _SEPARATORS)
     if len(groups) == 1 or not any(isinstance(item, Glyph) and item.style == "relation" for item in groups[-1]):
-        return _kept_together(math)
-    *parted, last = groups
-    return "".join(
-        f"{_kept_together(Row(group[:-1]))}#{quoted(f'{unicode(group[-1]).strip()} ')};" for group in parted
-    ) + (_kept_together(Row(last)))
+        return _sides(items)
+    *lists, last = groups
+    return "".join(f"{_sides(group[:-1])}#{quoted(f'{unicode(group[-1]).strip()} ')};" for group in lists) + _sides(
+        last
+    )
 
 
-def _kept_together(math: Math) -> str:
-    return equation(math, "kept" if len(unicode(math)) <= SHORT else "eq")
+def _sides(items: tuple[Math, ...]) -> str:
+    """An equation; a line may end before the relations of a long one, and nowhere behind them."""
+    whole = Row(items)
+    if len(unicode(whole)) <= SHORT:
+        return equation(whole, "kept")
+    first, *others = grouped(items, lambda _, item: isinstance(item, Glyph) and item.style == "relation")
+    sides = [Row(first)]
+    for side in others:
+        longer = Row((*sides[-1].items, *side))
+        if len(unicode(longer)) <= _SIDE:
+            sides[-1] = longer
+        else:
+            sides.append(Row(side))
+    return " ".join(equation(side, "kept" if len(unicode(side)) <= _SIDE else "eq") for side in sides)
 
 
 def equation(math: Math, function: str = "eq") -> str:
@@ -112,12 +125,7 @@ def equation(math: Math, function: str = "eq") -> str:
 
 def plain(text: str) -> str:
     """Text without mathematics as Typst markup, dollar signs and all; no line ends behind the hyphen of Q-learning."""
-    pieces = _LETTER_AND_WORD.split(text)
-    return "".join(
-        f"#box[#{quoted(piece)};]" if number % 2 else f"#{quoted(piece)};"
-        for number, piece in enumerate(pieces)
-        if piece
-    )
+    return "".join(f"#box[#{quoted(piece)};]" if whole else f"#{quoted(piece)};" for piece, whole in parted(text))
 
 
 def relation(sign: str) -> str:
@@ -165,7 +173,8 @@ def _character(sign: str) -> str:
     return rf"\u{{{ord(sign):x}}}"
 
 
-def _script(body: Math, below: Math | None, above: Math | None) -> str:
+def _script(script: Script) -> str:
+    body, below, above = script.body, script.below, script.above
     base, digits, primes = _taken_apart(body) if isinstance(body, Glyph) else (typst(body), "", "")
     lower = r" \, ".join(filter(None, (digits, _optional(below))))
     upper = " ".join(filter(None, (primes, _optional(above))))
@@ -211,10 +220,19 @@ def typst_row(items: tuple[Math, ...]) -> str:
         if result and _is_prime(item):
             result[-1] = f"attach({result[-1]}, t: {typst(item)})"
             continue
+        if position and items[position - 1] == _COMMA and not isinstance(_head(item), Glyph):
+            result.append(" thin")  # which Typst leaves before letters and numbers only
         # A word keeps the space beside it in Typst, which a bracket after it must not have.
         close = position > 0 and _is_word(items[position - 1]) and isinstance(item, Fence)
         result.append(typst(item) if close or not result else f" {typst(item)}")
     return "".join(result) or '""'
+
+
+def _head(item: Math) -> Math:
+    """What an item begins with; a sign before it is nothing of it."""
+    if isinstance(item, Script):
+        return _head(item.body)
+    return EMPTY if isinstance(item, Glyph) and item.style == "operator" else item
 
 
 def _is_word(item: Math) -> bool:
