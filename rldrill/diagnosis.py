@@ -306,9 +306,7 @@ def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
         _diagnosis(cause, applications, round(share, 2)) for cause, share in zip(causes, found.shares, strict=True)
     )
     said = _causes_told(causes, applications)
-    return Diagnosis(
-        first.kind, said[0].upper() + said[1:], first.place, tuple(others), first.confidence, first.wrong, first.right
-    )
+    return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
 
 
 def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -> str:
@@ -318,7 +316,8 @@ def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -
         looks.append("there is a slip in solving the equations")
     told = [cause.mistake.says for cause in causes if cause.mistake is not None]
     if looks:
-        told.insert(0 if causes[0].mistake is None else len(told), f"it looks as if {', or '.join(looks)}.")
+        place, it = (0, "It") if causes[0].mistake is None else (len(told), "it")
+        told.insert(place, f"{it} looks as if {', or '.join(looks)}.")
     return " Or: ".join(told)
 
 

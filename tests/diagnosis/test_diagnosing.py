@@ -245,3 +245,8 @@ def test_a_mistake_that_cannot_be_made_is_not_told() -> None:
     exercise = rldrill.read({"family": "importance-sampling", "given": given})
     assert exercise.check("32", "b").outcome is Outcome.RIGHT
     assert "not the product γ·i" not in exercise.diagnose("20", "b").sentence
+
+
+def test_a_sentence_begins_with_the_letter_that_it_is_about(run: rldrill.Exercise) -> None:
+    # α multiplies the target only, in the second update: 10 + 1/4·(−3 + 1/2·9) − 10 = 3/8
+    assert run.diagnose("cave: 13/2, floor: 3/8").sentence.startswith("α multiplies the whole TD error")
