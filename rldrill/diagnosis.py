@@ -306,6 +306,7 @@ def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
         _diagnosis(cause, applications, round(share, 2)) for cause, share in zip(causes, found.shares, strict=True)
     )
     said = _causes_told(causes, applications)
+    said = f"It{said[2:]}" if causes[0].mistake is None else said  # α and γ stay small
     return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
 
 
@@ -316,8 +317,7 @@ def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -
         looks.append("there is a slip in solving the equations")
     told = [cause.mistake.says for cause in causes if cause.mistake is not None]
     if looks:
-        place, it = (0, "It") if causes[0].mistake is None else (len(told), "it")
-        told.insert(place, f"{it} looks as if {', or '.join(looks)}.")
+        told.insert(0 if causes[0].mistake is None else len(told), f"it looks as if {', or '.join(looks)}.")
     return " Or: ".join(told)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from rldrill.entries import by_name
 from rldrill.exam.choices import Language
 from rldrill.exercise import Exercise
 from rldrill.print.words import Words, words
@@ -126,7 +127,7 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
         except Unreadable:
             continue  # a number so large that nobody types it
         value = answer_kind(part.kind).value({name: _content(cell) for name, cell in found.items()})
-        yield Wrong(tuple(map(_typed, found.values())), value, wrong.sentence, wrong.read)
+        yield Wrong(tuple(map(_typed, found.values())), value, by_name(wrong.sentence, part.kind), wrong.read)
 
 
 def typeset(part: Part, wrong: Wrong) -> Sequence[Math]:

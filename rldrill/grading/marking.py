@@ -12,6 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from rldrill.diagnosis import Diagnosis
+from rldrill.entries import by_name
 from rldrill.exercise import Exercise, draw, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
@@ -245,8 +246,8 @@ class _Problem:
         if self._rules.causes and not verdict.accepted:
             found = self._diagnosed(part.label, text, verdict, before)
             diagnosis = found if found.explains else None
-        reason = verdict.says if diagnosis is None else diagnosis.of(verdict)
-        mistake = "" if verdict.accepted or diagnosis is None else diagnosis.sentence
+        reason = by_name(verdict.says if diagnosis is None else diagnosis.of(verdict), part.kind)
+        mistake = "" if verdict.accepted or diagnosis is None else by_name(diagnosis.sentence, part.kind)
         score = Score(part.points * self._credit(part, verdict), part.points)
         outcome = verdict.outcome.value
         return Judged(verdict.read, outcome, verdict.accepted, reason, score, self._key(part), diagnosis, mistake)

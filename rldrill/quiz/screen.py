@@ -11,6 +11,7 @@ from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderR
 from rich.table import Table
 from rich.text import Text
 
+from rldrill.entries import by_name
 from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
 from rldrill.history.memory import Skill
@@ -27,7 +28,7 @@ from rldrill.quiz.planning import Plan
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder, utc_now
 from rldrill.quiz.session import PartRecord, Record, Session, State
-from rldrill.quiz.shapes import by_name, how_to_type
+from rldrill.quiz.shapes import how_to_type
 from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, compared, render, renderable, words

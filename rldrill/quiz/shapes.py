@@ -1,19 +1,16 @@
 """What is said of how to type an answer: an example of the very shape that a part asks for."""
 
-import re
 from collections.abc import Iterable, Sequence
 from itertools import cycle, islice
 
-from rldrill.problems.mathematics import mathematics
+from rldrill.entries import entry_name
 from rldrill.problems.parts import Kind, Matrix, Number, Numbers, Policy, Values
-from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import DIGITS
 
 #: So many entries are written out in an example.
 _MANY = 4
 _EXAMPLES = ("3/4", "0.5", "2", "-1")
-_ENTRY = re.compile(r"\bentry (\d+)\b")
 
 
 def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
@@ -25,9 +22,9 @@ def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
         case Number() | Matrix(1, 1) | Values(keys=(_,)):
             return f"a number, {_exact(parameters)}: 3/4, 0.75 or 2 + 1/2*3"
         case Numbers(entries) if len(entries) == 1:
-            return f"{_written(entries[0])}, {_exact(parameters)}: {next(example)}"
+            return f"{entry_name(entries[0])}, {_exact(parameters)}: {next(example)}"
         case Numbers(entries):
-            names = ", ".join(map(_written, entries))
+            names = ", ".join(map(entry_name, entries))
             return f"{names} in this order, {_exact(parameters)}: {_shortened(example, len(entries))}"
         case Matrix(rows, columns):
             lines = [", ".join(islice(example, columns)) for _ in range(rows)]
@@ -44,17 +41,6 @@ def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
             return answer_kind(kind).how_to_type()
 
 
-def by_name(says: str, kind: Kind) -> str:
-    """A sentence in which the entries of a vector have the names that the question gives them, not their numbers.
-
-    What was typed may have more entries than are asked for; those have no names.
-    """
-    if not isinstance(kind, Numbers):
-        return says
-    names = {str(number): _written(entry) for number, entry in enumerate(kind.entries, 1)}
-    return _ENTRY.sub(lambda found: names.get(found[1], found[0]), says)
-
-
 def _exact(parameters: Sequence[str]) -> str:
     if parameters:
         return f"in {' and '.join(parameters)} where it depends on {'them' if len(parameters) > 1 else 'it'}"
@@ -68,7 +54,3 @@ def _examples(parameters: Sequence[str]) -> "cycle[str]":
 def _shortened(items: Iterable[str], number: int) -> str:
     shown = ", ".join(islice(items, min(number, _MANY)))
     return shown if number <= _MANY else f"{shown}, …"
-
-
-def _written(entry: str) -> str:
-    return unicode(mathematics(entry))

@@ -12,12 +12,13 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from rldrill.entries import by_name
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Kind, Part
 from rldrill.quiz.display import Display
 from rldrill.quiz.prompt import Ask
-from rldrill.quiz.shapes import by_name, how_to_type
+from rldrill.quiz.shapes import how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
 from rldrill.render.compact import Compact
 from rldrill.render.linear import linear

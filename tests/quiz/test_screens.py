@@ -8,11 +8,9 @@ from rich.console import Console
 from rldrill.exercise import draw
 from rldrill.problems.document import Beside, Block, Equation, Paragraph, Table
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.parts import Number, Numbers
 from rldrill.problems.pictures import Arrow, StateDiagram
 from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session
-from rldrill.quiz.shapes import by_name
 from rldrill.render.compact import Compact
 
 TABLE = Table(("s", "s'"), (("cool", "warm"), ("warm", "cool")))
@@ -104,10 +102,3 @@ def test_nine_of_ten_problems_fit_the_smallest_usual_terminal() -> None:
 def test_nothing_is_wider_than_the_screen_or_a_page(width: int, height: int) -> None:
     for name in ("expected-return/2", "lqr-gain/2", "double-q-learning/2"):
         assert max(map(len, first_screen(name, width, height))) <= min(width, 100)
-
-
-def test_an_entry_is_called_what_the_question_calls_it() -> None:
-    deltas = Numbers(("δ_0", "δ_1"))
-    assert by_name("Not right at entry 2; the rest is right.", deltas) == "Not right at δ₁; the rest is right."
-    assert by_name("Not right at entry 2.", Number()) == "Not right at entry 2."
-    assert by_name("entry 3: 'x' is not understood.", deltas) == "entry 3: 'x' is not understood."  # two are asked for
