@@ -1,14 +1,16 @@
 """Preferences, then their softmax; the probabilities stay closed forms in e."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import sympy
+from sympy import Expr
 
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import exact, tidy, to_sympy
+from rldrill.solutions.exact import exact, simplest, tidy, to_sympy
 from rldrill.solutions.exponentials import rational_function
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -24,8 +26,6 @@ from rldrill.solutions.sheet.policy_gradient import (
 from rldrill.solutions.sheet.policy_gradient import theta as theta_of
 from rldrill.solutions.softmax import action_features, by_number, chances
 from rldrill.solutions.work import Equality, Work
-
-MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -59,6 +59,61 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
             work.lines.append(Equality(theta_of(index), (sympy.log(leaf(x), evaluate=False), tidy(value))))
     found = chances(work, {**known, **by_number(theta)}, "s", tuple(given.features))
     work.answer({action: found[action, "s"] for action in given.features})
+
+
+def _from_exponentials(given: Given, work: Work, exponentials: Callable[[Mapping[str, Any], str], Expr]) -> None:
+    """The right preferences, and the probabilities from what each action is said to be e to the power of."""
+    known = by_number([exact(weight) for weight in given.theta]) | action_features({"s": given.features})
+    preferences = work.answer({action: work.step(PREFERENCE, s="s", a=action, **known) for action in given.features})
+    weights = {action: exponentials(known | {"H": preferences}, action) for action in given.features}
+    total = sum(weights.values())
+    found = work.answer({action: simplest(sympy.simplify(weight / total)) for action, weight in weights.items()})
+    if given.entropy:
+        known["pi"] = {(action, "s"): chance for action, chance in found.items()}
+        work.answer(work.step(ENTROPY, s="s", choices=tuple(found), **known))
+
+
+def _terms(known: Mapping[str, Any], action: str) -> list[Expr]:
+    """The terms of a preference that are not 0."""
+    terms = (to_sympy(weight) * to_sympy(known["f"][index, "s", action]) for index, weight in known["theta"].items())
+    return [term for term in terms if term != 0]
+
+
+def _has_sums(given: Given) -> bool:
+    """Whether some preference is a sum of several terms."""
+    return given.odds is None and any(sum(value != 0 for value in row) > 1 for row in given.features.values())
+
+
+def _has_zeros(given: Given) -> bool:
+    """Whether some action has no features, so that its preference is 0."""
+    return given.odds is None and any(not any(row) for row in given.features.values())
+
+
+@slip("exponentials-added", "e to the power of a sum is a product: exp(x + y) = exp(x) exp(y).", when=_has_sums)
+def added(given: Given, work: Work) -> None:
+    """The exponentials of the terms of a preference added up."""
+    _from_exponentials(
+        given,
+        work,
+        lambda known, action: sum(map(sympy.exp, _terms(known, action))) if _terms(known, action) else sympy.S.One,
+    )
+
+
+@slip(
+    "nothing-for-zero",
+    "exp(0) = 1: an action with the preference 0 has its share of the probability, too.",
+    when=_has_zeros,
+)
+def nothing(given: Given, work: Work) -> None:
+    """No probability for the actions whose preference is 0."""
+    _from_exponentials(
+        given,
+        work,
+        lambda known, action: sympy.exp(to_sympy(known["H"][action])) if _terms(known, action) else sympy.S.Zero,
+    )
+
+
+MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP, added.where_it_shows(), nothing.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

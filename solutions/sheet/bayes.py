@@ -543,6 +543,11 @@ with evaluate(False):
         "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
         when=lambda given: any(not model.certain for model in given.models.values()),
     )
+    MEAN_OF_PRIOR = Misconception(
+        "prior-mean-for-evidence",
+        "The evidence is the mean of the likelihood over the prior of θ, not the likelihood at the mean of θ.",
+        when=BEST_FIT.when,
+    )
     _MEAN_LIKELIHOOD = (
         factorial(beta_a + beta_b - 1)
         * factorial(beta_a + heads - 1)
@@ -561,6 +566,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             BEST_FIT: (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
+            MEAN_OF_PRIOR: (beta_a / (beta_a + beta_b)) ** heads * (beta_b / (beta_a + beta_b)) ** tails,
             BINOMIAL: _ORDERS * _MEAN_LIKELIHOOD,
         },
     )
