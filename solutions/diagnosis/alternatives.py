@@ -61,7 +61,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
         if edit.kind in IN_ONE_TERM:
             pass
-        elif same_form(other := value_or_none(edit.right, known), value):
+        elif is_sensible(edit) and same_form(other := value_or_none(edit.right, known), value):
             if weights.IDEAS[edit.kind] >= PLAIN:
                 edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
@@ -214,6 +214,11 @@ def terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tu
         return
     for term in found:
         yield term, {element(depth): item for depth, item in enumerate(term)}
+
+
+def is_sensible(edit: Edit) -> bool:
+    """Whether somebody could do that: nobody adds up the factors of −V."""
+    return edit.kind != "added" or edit.part.args[0] != -1
 
 
 def likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -> float:

@@ -8,7 +8,7 @@ from sympy import Expr
 
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import exact, simplest, tidy, to_sympy
+from rldrill.solutions.exact import Value, exact, simplest, tidy, to_sympy
 from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
@@ -67,10 +67,15 @@ def _from_exponentials(given: Given, work: Work, exponentials: Callable[[Mapping
     preferences = work.answer({action: work.step(PREFERENCE, s="s", a=action, **known) for action in given.features})
     weights = {action: exponentials(known | {"H": preferences}, action) for action in given.features}
     total = sum(weights.values())
-    found = work.answer({action: simplest(sympy.simplify(weight / total)) for action, weight in weights.items()})
+    found = work.answer({action: _share(weight, total) for action, weight in weights.items()})
     if given.entropy:
         known["pi"] = {(action, "s"): chance for action, chance in found.items()}
         work.answer(work.step(ENTROPY, s="s", choices=tuple(found), **known))
+
+
+def _share(weight: Expr, total: Expr) -> Value:
+    share = weight / total
+    return rational_function(share) if share.free_symbols else simplest(share)
 
 
 def _terms(known: Mapping[str, Any], action: str) -> list[Expr]:

@@ -137,9 +137,6 @@ with evaluate(False):
         "The discount of a reward i steps later is the power γⁱ, not the product γ·i.",
         when=lambda given: given.gamma != 1,
     )
-    LAST_REWARD_ALONE = Misconception(
-        "last-reward-alone", "The return adds up all rewards of the episode, not only the last one."
-    )
     RETURN = Formula(
         "return",
         G(t),
@@ -152,7 +149,6 @@ with evaluate(False):
             FIRST_DISCOUNTED: SumOver(gamma ** (i + 1) * r(t + 1 + i), i, _ALL),
             STARTS_EARLY: SumOver(gamma**i * r(t + i), i, _ALL),
             UNDISCOUNTED: SumOver(r(t + 1 + i), i, _ALL),
-            LAST_REWARD_ALONE: r(T),
             LINEAR_DISCOUNT: SumOver(gamma * i * r(t + 1 + i), i, _ALL),
         },
     )
