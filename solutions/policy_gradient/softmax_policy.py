@@ -8,7 +8,7 @@ from sympy import Expr
 
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import Value, exact, simplest, tidy, to_sympy
+from rldrill.solutions.exact import Value, exact, parameters, simplest, tidy, to_sympy
 from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
@@ -74,8 +74,10 @@ def _from_exponentials(given: Given, work: Work, exponentials: Callable[[Mapping
 
 
 def _share(weight: Expr, total: Expr) -> Value:
-    share = weight / total
-    return rational_function(share) if share.free_symbols else simplest(share)
+    if not total.free_symbols:
+        return simplest(weight / total)
+    share = rational_function(weight / total)
+    return share if parameters(share) else simplest(to_sympy(share))
 
 
 def _terms(known: Mapping[str, Any], action: str) -> list[Expr]:

@@ -496,6 +496,13 @@ with evaluate(False):
         hint="The line goes through the point of the means.",
         place=Place.BEYOND,
     )
+    OLD_SLOPE = Misconception(
+        "intercept-of-the-old-slope", "With another slope the line has another intercept: put the new slope in."
+    )
+    HALF_OF_THE_SLOPE = Misconception(
+        "slope-halved",
+        "The prior's mean and the fitted slope do not count alike: the prior adds σ²/σ₀² below the line.",
+    )
     LINE_SLOPE_MAP = Formula(
         "line-slope-map",
         slope_map,
@@ -505,6 +512,9 @@ with evaluate(False):
         hint="The prior adds σ²/σ₀² below the line, which draws the slope towards 0.",
         note="For noise of variance $σ^2$ and the prior $N(0, σ_0^2)$.",
         place=Place.BEYOND,
+        misread={
+            HALF_OF_THE_SLOPE: S_xy / (2 * S_xx),
+        },
     )
 
     MODEL_COMPARISON = Formula(
@@ -692,4 +702,9 @@ def few_values() -> Formula:
 def line_intercept_map() -> Formula:
     """The intercept of the line whose slope is drawn towards 0 by its prior."""
     with evaluate(False):
-        return replace(LINE_INTERCEPT, left=intercept_map, right=average(ordinate) - slope_map * average(abscissa))
+        return replace(
+            LINE_INTERCEPT,
+            left=intercept_map,
+            right=average(ordinate) - slope_map * average(abscissa),
+            misread={OLD_SLOPE: LINE_INTERCEPT.right},
+        )
