@@ -14,7 +14,6 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     DDP,
     DDP_GREATEST,
-    GAIN_TIMES_STATE,
     INPUT_JACOBIAN,
     K_WITH_PLUS,
     OLD_ACTION_FORGOTTEN,
@@ -200,7 +199,6 @@ MISCONCEPTIONS = (
     DDP_FOR_ILQR,
     K_WITH_PLUS,
     OLD_ACTION_FORGOTTEN.where_it_shows(),
-    GAIN_TIMES_STATE.where_it_shows(),
 )
 
 

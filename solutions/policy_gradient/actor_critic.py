@@ -15,7 +15,6 @@ from rldrill.solutions.sheet.policy_gradient import (
     ACTOR_CRITIC,
     CRITIC,
     CRITIC_WITHOUT_ALPHA,
-    DESCENT,
     NEXT_VALUE_FORGOTTEN,
     TD_ERROR,
     WEIGHTED_BY_REWARD,
@@ -103,7 +102,6 @@ MISCONCEPTIONS = (
     swapped,
     error_late.where_it_shows(),
     CRITIC_WITHOUT_ALPHA.where_it_shows(),
-    DESCENT.where_it_shows(),
 )
 
 

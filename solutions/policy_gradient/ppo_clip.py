@@ -18,7 +18,6 @@ from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
     CLIP_WITHOUT_MIN,
     CLIPPED_ABOVE_ALONE,
-    CLIPPED_BELOW_ALONE,
     GREATER_TERM,
     NOT_AVERAGED,
     PPO,
@@ -237,7 +236,6 @@ MISCONCEPTIONS = (
     RATIO_INVERTED,
     GREATER_TERM.where_it_shows(),
     CLIPPED_ABOVE_ALONE.where_it_shows(),
-    CLIPPED_BELOW_ALONE.where_it_shows(),
     replace(NOT_AVERAGED.where_it_shows(), when=lambda given: len(given.samples) > 1),
 )
 

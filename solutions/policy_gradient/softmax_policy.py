@@ -1,14 +1,17 @@
 """Preferences, then their softmax; the probabilities stay closed forms in e."""
 
 from collections.abc import Callable, Mapping
+from functools import reduce
+from operator import mul
 from typing import Any
 
 import sympy
-from sympy import Expr
 
 from rldrill.problems.exact import Logarithm
+from rldrill.problems.features import FeatureVector
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import Value, exact, parameters, simplest, tidy, to_sympy
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, parameters, simplest, tidy, to_sympy
 from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
@@ -61,49 +64,49 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
     work.answer({action: found[action, "s"] for action in given.features})
 
 
-def _from_exponentials(given: Given, work: Work, exponentials: Callable[[Mapping[str, Any], str], Expr]) -> None:
-    """The right preferences, and the probabilities from what each action is said to be e to the power of."""
+def _from_exponentials(given: Given, work: Work, exponential: Callable[[list[Value]], Value]) -> None:
+    """The right preferences, and the probabilities from the exponential that is made of those of its terms."""
     known = by_number([exact(weight) for weight in given.theta]) | action_features({"s": given.features})
-    preferences = work.answer({action: work.step(PREFERENCE, s="s", a=action, **known) for action in given.features})
-    weights = {action: exponentials(known | {"H": preferences}, action) for action in given.features}
-    total = sum(weights.values())
-    found = work.answer({action: _share(weight, total) for action, weight in weights.items()})
+    work.answer({action: work.step(PREFERENCE, s="s", a=action, **known) for action in given.features})
+    weights = {action: exponential(_of_terms(given, row)) for action, row in given.features.items()}
+    total = sum(weights.values(), ZERO)
+    found = work.answer({action: _number(weight / total) for action, weight in weights.items()})
     if given.entropy:
         known["pi"] = {(action, "s"): chance for action, chance in found.items()}
         work.answer(work.step(ENTROPY, s="s", choices=tuple(found), **known))
 
 
-def _share(weight: Expr, total: Expr) -> Value:
-    if not total.free_symbols:
-        return simplest(weight / total)
-    share = rational_function(weight / total)
+def _of_terms(given: Given, row: FeatureVector) -> list[Value]:
+    """e to the power of every term of a preference that is not 0: k for ln k."""
+    logarithms = (weight.of for weight in given.theta if isinstance(weight, Logarithm))
+    return [exact(number) ** int(value) for number, value in zip(logarithms, row, strict=True) if value != 0]
+
+
+def _number(share: Value) -> Value:
+    """A share as a number, where no letter is left in it."""
     return share if parameters(share) else simplest(to_sympy(share))
 
 
-def _terms(known: Mapping[str, Any], action: str) -> list[Expr]:
-    """The terms of a preference that are not 0."""
-    terms = (to_sympy(weight) * to_sympy(known["f"][index, "s", action]) for index, weight in known["theta"].items())
-    return [term for term in terms if term != 0]
+def _of_logarithms(given: Given) -> bool:
+    """Whether every exponential is a number or a power of a letter."""
+    whole = all(Fraction(value).denominator == 1 for row in given.features.values() for value in row)
+    return whole and given.odds is None and all(isinstance(weight, Logarithm) for weight in given.theta)
 
 
 def _has_sums(given: Given) -> bool:
     """Whether some preference is a sum of several terms."""
-    return given.odds is None and any(sum(value != 0 for value in row) > 1 for row in given.features.values())
+    return _of_logarithms(given) and any(sum(value != 0 for value in row) > 1 for row in given.features.values())
 
 
 def _has_zeros(given: Given) -> bool:
     """Whether some action has no features, so that its preference is 0."""
-    return given.odds is None and any(not any(row) for row in given.features.values())
+    return _of_logarithms(given) and any(not any(row) for row in given.features.values())
 
 
 @slip("exponentials-added", "e to the power of a sum is a product: exp(x + y) = exp(x) exp(y).", when=_has_sums)
 def added(given: Given, work: Work) -> None:
     """The exponentials of the terms of a preference added up."""
-    _from_exponentials(
-        given,
-        work,
-        lambda known, action: sum(map(sympy.exp, _terms(known, action))) if _terms(known, action) else sympy.S.One,
-    )
+    _from_exponentials(given, work, lambda terms: sum(terms, ZERO) if terms else ONE)
 
 
 @slip(
@@ -113,11 +116,7 @@ def added(given: Given, work: Work) -> None:
 )
 def nothing(given: Given, work: Work) -> None:
     """No probability for the actions whose preference is 0."""
-    _from_exponentials(
-        given,
-        work,
-        lambda known, action: sympy.exp(to_sympy(known["H"][action])) if _terms(known, action) else sympy.S.Zero,
-    )
+    _from_exponentials(given, work, lambda terms: reduce(mul, terms) if terms else ZERO)
 
 
 MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP, added.where_it_shows(), nothing.where_it_shows())
