@@ -92,7 +92,7 @@ def transposed(given: Given, work: Work) -> None:
 @slip(
     "absolute-rates",
     "Each angular velocity is relative to the link before: a link turns with the sum of all up to its own.",
-    when=lambda given: given.velocity is None,
+    when=lambda given: given.velocity is None and len(given.lengths) == 2,
 )
 def absolute_rates(given: Given, work: Work) -> None:
     """Every joint turns its own link alone, though J is right."""
