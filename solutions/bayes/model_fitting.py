@@ -104,8 +104,8 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
     known: dict[str, Any] = {"n": len(line.points), "abscissa": "x", "ordinate": "y", "value_of": values}
     known["average"] = {axis: work.step(formula, **known) for axis, formula in (("x", MEAN_OF_X), ("y", MEAN_OF_Y))}
     known |= {"S_xy": work.step(PRODUCTS, **known), "S_xx": work.step(SQUARES, **known)}
-    slope = work.step(LINE_SLOPE, **known)
-    work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+    known["slope"] = work.step(LINE_SLOPE, **known)
+    work.answer((known["slope"], work.step(LINE_INTERCEPT, **known)))
     prior = line.prior
     if prior is None:
         return

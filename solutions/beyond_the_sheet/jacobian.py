@@ -1,11 +1,10 @@
 """The Jacobian column by column; the velocity from it; the determinant where it is square."""
 
-from itertools import pairwise
 from typing import Any
 
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
-from rldrill.solutions.exact import ONE, NoSolution, Value, exact, is_zero
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero, tidy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import np
@@ -93,14 +92,14 @@ def transposed(given: Given, work: Work) -> None:
 @slip(
     "absolute-rates",
     "Each angular velocity is relative to the link before: a link turns with the sum of all up to its own.",
-    when=lambda given: given.velocity is None,
+    when=lambda given: given.velocity is None and len(given.lengths) == 2,
 )
 def absolute_rates(given: Given, work: Work) -> None:
     """Every joint turns its own link alone, though J is right."""
-    J, _, *rest = right_answers(solve, given, work)
-    columns = [matrices.column(column) for column in zip(*work.answer(J).tolist(), strict=True)]
-    alone = [one - after for one, after in pairwise(columns)] + columns[-1:]
-    _velocity(given, work, matrices.matrix(zip(*(column.entries() for column in alone), strict=True)))
+    J, velocity, *rest = right_answers(solve, given, work)
+    rows, rates = work.answer(J).tolist(), list(map(exact, given.rates or ()))
+    carried = [sum((rate * entry for rate, entry in zip(rates, row[1:], strict=False)), ZERO) for row in rows]
+    work.answer(tuple(tidy(entry - more) for entry, more in zip(velocity, carried, strict=True)))
     for singular in rest:
         work.answer(singular)
 

@@ -13,13 +13,14 @@ from rldrill.solutions.diagnosis.arithmetic import slips
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.typed import approximate
-from rldrill.solutions.exact import is_rational
+from rldrill.solutions.exact import is_rational, parameters
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, flat, probes
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Quantity, SumOver
 from rldrill.solutions.matrices import is_matrix, matrix
+from rldrill.solutions.rational import generator
 from rldrill.solutions.vector import Vector
 
 #: A place whose quantity has more values than this elsewhere is not tried with all of them.
@@ -60,7 +61,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
         if edit.kind in IN_ONE_TERM:
             pass
-        elif same_form(other := value_or_none(edit.right, known), value):
+        elif is_sensible(edit) and same_form(other := value_or_none(edit.right, known), value):
             if weights.IDEAS[edit.kind] >= PLAIN:
                 edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
@@ -215,13 +216,22 @@ def terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tu
         yield term, {element(depth): item for depth, item in enumerate(term)}
 
 
+def is_sensible(edit: Edit) -> bool:
+    """Whether somebody could do that: nobody adds up the factors of −V."""
+    return edit.kind != "added" or edit.part.args[0] != -1
+
+
 def likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -> float:
     """How likely an edit is for these values: 1 − x is taken for a share of 1."""
     if edit.kind != "complement-of-value" or len(term) != len(edit.within):
         return 1.0
     here = {over.index.name: item for over, item in zip(edit.within, term, strict=True)}
-    share = approximate(value_or_none(edit.part, {**known, **here}))
-    return 1.0 if 0 < share < 1 else weights.NO_SHARE
+    share = value_or_none(edit.part, {**known, **here})
+    if letters := parameters(share):
+        is_share = share in [each for letter in letters for each in (generator(letter), 1 - generator(letter))]
+    else:
+        is_share = 0 < approximate(share) < 1
+    return 1.0 if is_share else weights.NO_SHARE
 
 
 def plain(value: Any) -> bool:

@@ -15,6 +15,7 @@ from rldrill.solutions.diagnosis.alternatives import (
     at_place,
     can_be_made,
     hashable,
+    is_sensible,
     numbers,
     of_numbers,
     terms,
@@ -127,7 +128,7 @@ class Search:
         for right in uses:
             seen: Counter[Any] = Counter()
             for edit in edits(right):
-                if edit.kind in IN_ONE_TERM:
+                if edit.kind in IN_ONE_TERM or not is_sensible(edit):
                     continue
                 key = edit.kind, edit.part, edit.instead
                 alike[key, seen[key]].append((right, edit))

@@ -116,22 +116,22 @@ def stops_short(given: Given, work: Work) -> None:
         work.answer(max(_sweeps(work, known, exact(given.accuracy)) - 1, 0))
 
 
-def _met_exactly(given: Given, work: Work, known: dict[str, Any]) -> bool:
-    """Whether the bound of the first number of sweeps that is enough is the accuracy itself."""
-    accuracy = exact(needed(given.accuracy))
-    return bool(work.value(CONTRACTION, k=_sweeps(work, known, accuracy), **known) == accuracy)
+def _met_exactly(given: Given, known: dict[str, Any]) -> bool:
+    """Whether after a few sweeps the bound is the accuracy itself."""
+    accuracy, bound = exact(needed(given.accuracy)), known["distance"][0]
+    return any(bound * known["gamma"] ** k == accuracy for k in range(WRITTEN_OUT + 1))
 
 
 @slip(
     "strictly-below",
     "A bound that is just as large as the accuracy is enough: the error is to be at most that, not below it.",
-    when=lambda given: given.accuracy is not None and _met_exactly(given, work := Work(), _bounds(given, work)),
+    when=lambda given: given.accuracy is not None and _met_exactly(given, _bounds(given, Work())),
 )
 def strictly_below(given: Given, work: Work) -> None:
     """The bound is to be below the accuracy."""
     known = _bounds(given, work)
     if given.accuracy is not None:
-        work.answer(_sweeps(work, known, exact(given.accuracy)) + _met_exactly(given, work, known))
+        work.answer(_sweeps(work, known, exact(given.accuracy)) + _met_exactly(given, known))
 
 
 MISCONCEPTIONS = (

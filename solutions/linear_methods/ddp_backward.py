@@ -16,6 +16,7 @@ from rldrill.solutions.sheet.linear_methods import (
     DDP_GREATEST,
     INPUT_JACOBIAN,
     K_WITH_PLUS,
+    OLD_ACTION_FORGOTTEN,
     SECOND_DERIVATIVE,
     STATE_JACOBIAN,
     Expansion,
@@ -193,7 +194,12 @@ DDP_FOR_ILQR = slip(
     "iLQR takes the dynamics as linear: their second derivatives, which DDP adds, are left out.",
     when=lambda given: not given.second_order,
 )(other_method)
-MISCONCEPTIONS = (ILQR_FOR_DDP, DDP_FOR_ILQR, K_WITH_PLUS)
+MISCONCEPTIONS = (
+    ILQR_FOR_DDP,
+    DDP_FOR_ILQR,
+    K_WITH_PLUS,
+    OLD_ACTION_FORGOTTEN.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

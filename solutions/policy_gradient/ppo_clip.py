@@ -17,6 +17,7 @@ from rldrill.solutions.rational import generator
 from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
     CLIP_WITHOUT_MIN,
+    CLIPPED_ABOVE_ALONE,
     GREATER_TERM,
     NOT_AVERAGED,
     PPO,
@@ -234,6 +235,7 @@ MISCONCEPTIONS = (
     wrong_side,
     RATIO_INVERTED,
     GREATER_TERM.where_it_shows(),
+    CLIPPED_ABOVE_ALONE.where_it_shows(),
     replace(NOT_AVERAGED.where_it_shows(), when=lambda given: len(given.samples) > 1),
 )
 

@@ -1,14 +1,19 @@
 """Preferences, then their softmax; the probabilities stay closed forms in e."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import reduce
+from operator import mul
 from typing import Any
 
 import sympy
 
 from rldrill.problems.exact import Logarithm
+from rldrill.problems.features import FeatureVector
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import exact, tidy, to_sympy
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, parameters, simplest, tidy, to_sympy
 from rldrill.solutions.exponentials import rational_function
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -24,8 +29,6 @@ from rldrill.solutions.sheet.policy_gradient import (
 from rldrill.solutions.sheet.policy_gradient import theta as theta_of
 from rldrill.solutions.softmax import action_features, by_number, chances
 from rldrill.solutions.work import Equality, Work
-
-MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -59,6 +62,64 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
             work.lines.append(Equality(theta_of(index), (sympy.log(leaf(x), evaluate=False), tidy(value))))
     found = chances(work, {**known, **by_number(theta)}, "s", tuple(given.features))
     work.answer({action: found[action, "s"] for action in given.features})
+
+
+def _from_exponentials(given: Given, work: Work, exponential: Callable[[list[Value]], Value]) -> None:
+    """The right preferences, and the probabilities from the exponential that is made of those of its terms."""
+    known = by_number([exact(weight) for weight in given.theta]) | action_features({"s": given.features})
+    work.answer({action: work.step(PREFERENCE, s="s", a=action, **known) for action in given.features})
+    weights = {action: exponential(_of_terms(given, row)) for action, row in given.features.items()}
+    total = sum(weights.values(), ZERO)
+    found = work.answer({action: _number(weight / total) for action, weight in weights.items()})
+    if given.entropy:
+        known["pi"] = {(action, "s"): chance for action, chance in found.items()}
+        work.answer(work.step(ENTROPY, s="s", choices=tuple(found), **known))
+
+
+def _of_terms(given: Given, row: FeatureVector) -> list[Value]:
+    """e to the power of every term of a preference that is not 0: k for ln k."""
+    logarithms = (weight.of for weight in given.theta if isinstance(weight, Logarithm))
+    return [exact(number) ** int(value) for number, value in zip(logarithms, row, strict=True) if value != 0]
+
+
+def _number(share: Value) -> Value:
+    """A share as a number, where no letter is left in it."""
+    return share if parameters(share) else simplest(to_sympy(share))
+
+
+def _of_logarithms(given: Given) -> bool:
+    """Whether every exponential is a number or a power of a letter."""
+    whole = all(Fraction(value).denominator == 1 for row in given.features.values() for value in row)
+    return whole and given.odds is None and all(isinstance(weight, Logarithm) for weight in given.theta)
+
+
+def _has_sums(given: Given) -> bool:
+    """Whether some preference is a sum of several terms."""
+    return _of_logarithms(given) and any(sum(value != 0 for value in row) > 1 for row in given.features.values())
+
+
+def _has_zeros(given: Given) -> bool:
+    """Whether some action has no features, so that its preference is 0."""
+    return _of_logarithms(given) and any(not any(row) for row in given.features.values())
+
+
+@slip("exponentials-added", "e to the power of a sum is a product: exp(x + y) = exp(x) exp(y).", when=_has_sums)
+def added(given: Given, work: Work) -> None:
+    """The exponentials of the terms of a preference added up."""
+    _from_exponentials(given, work, lambda terms: sum(terms, ZERO) if terms else ONE)
+
+
+@slip(
+    "nothing-for-zero",
+    "exp(0) = 1: an action with the preference 0 has its share of the probability, too.",
+    when=_has_zeros,
+)
+def nothing(given: Given, work: Work) -> None:
+    """No probability for the actions whose preference is 0."""
+    _from_exponentials(given, work, lambda terms: reduce(mul, terms) if terms else ZERO)
+
+
+MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP, added.where_it_shows(), nothing.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

@@ -496,6 +496,13 @@ with evaluate(False):
         hint="The line goes through the point of the means.",
         place=Place.BEYOND,
     )
+    OLD_SLOPE = Misconception(
+        "intercept-of-the-old-slope", "With another slope the line has another intercept: put the new slope in."
+    )
+    HALF_OF_THE_SLOPE = Misconception(
+        "slope-halved",
+        "The prior's mean and the fitted slope do not count alike: the prior adds σ²/σ₀² below the line.",
+    )
     LINE_SLOPE_MAP = Formula(
         "line-slope-map",
         slope_map,
@@ -505,6 +512,9 @@ with evaluate(False):
         hint="The prior adds σ²/σ₀² below the line, which draws the slope towards 0.",
         note="For noise of variance $σ^2$ and the prior $N(0, σ_0^2)$.",
         place=Place.BEYOND,
+        misread={
+            HALF_OF_THE_SLOPE: S_xy / (2 * S_xx),
+        },
     )
 
     MODEL_COMPARISON = Formula(
@@ -543,6 +553,11 @@ with evaluate(False):
         "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
         when=lambda given: any(not model.certain for model in given.models.values()),
     )
+    MEAN_OF_PRIOR = Misconception(
+        "prior-mean-for-evidence",
+        "The evidence is the mean of the likelihood over the prior of θ, not the likelihood at the mean of θ.",
+        when=BEST_FIT.when,
+    )
     _MEAN_LIKELIHOOD = (
         factorial(beta_a + beta_b - 1)
         * factorial(beta_a + heads - 1)
@@ -561,6 +576,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             BEST_FIT: (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
+            MEAN_OF_PRIOR: (beta_a / (beta_a + beta_b)) ** heads * (beta_b / (beta_a + beta_b)) ** tails,
             BINOMIAL: _ORDERS * _MEAN_LIKELIHOOD,
         },
     )
@@ -686,4 +702,9 @@ def few_values() -> Formula:
 def line_intercept_map() -> Formula:
     """The intercept of the line whose slope is drawn towards 0 by its prior."""
     with evaluate(False):
-        return replace(LINE_INTERCEPT, left=intercept_map, right=average(ordinate) - slope_map * average(abscissa))
+        return replace(
+            LINE_INTERCEPT,
+            left=intercept_map,
+            right=average(ordinate) - slope_map * average(abscissa),
+            misread={OLD_SLOPE: LINE_INTERCEPT.right},
+        )

@@ -65,6 +65,12 @@ with evaluate(False):
     WITHOUT_GAMMA_PI = SumOver(P(s, a, s1) * (R(s, a, s1) + Vpi(s1)), s1, Successors(s, a))
     GAMMA_ON_REWARD = SumOver(P(s, a, s1) * (gamma * (R(s, a, s1) + Vpi(s1))), s1, Successors(s, a))
 
+    Q_REWARD_UNWEIGHTED = Misconception(
+        "reward-not-weighted",
+        "Each reward counts with the probability of its transition, as the value of the next state does.",
+        when=lambda given: any(row.probability != 1 and row.reward for row in _rows(given)),
+    )
+    REWARD_UNWEIGHTED = SumOver(R(s, a, s1) + P(s, a, s1) * gamma * V(s1), s1, Successors(s, a))
     FORGOT_POLICY = Misconception(
         "forgot-policy", "Each action counts with the probability π(a|s) with which the policy takes it."
     )
@@ -95,17 +101,15 @@ with evaluate(False):
             FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA_PI, a, Actions(s)),
             MAX_FOR_MEAN: MaxOver(LOOKAHEAD_PI, a, Actions(s)),
             ACTIONS_ALIKE: MeanOver(LOOKAHEAD_PI, a, Actions(s)),
+            Q_REWARD_UNWEIGHTED: SumOver(
+                pi(a, s) * SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vpi(s1), s1, Successors(s, a)), a, Actions(s)
+            ),
             TRANSPOSED: SumOver(
                 pi(a, s) * SumOver(P(s1, a, s) * (R(s1, a, s) + gamma * Vpi(s1)), s1, States), a, Actions(s)
             ),
         },
     )
 
-    Q_REWARD_UNWEIGHTED = Misconception(
-        "reward-not-weighted",
-        "Each reward counts with the probability of its transition, as the value of the next state does.",
-        when=lambda given: any(row.probability != 1 and row.reward for row in _rows(given)),
-    )
     Q_FORGOT_GAMMA = Misconception(
         "forgot-gamma-in-q", "The value of the next state is discounted by γ.", when=lambda given: given.gamma != 1
     )
@@ -251,6 +255,7 @@ with evaluate(False):
             Q_FORGOT_GAMMA: SumOver(P(s, a, s1) * (R(s, a, s1) + Vstar(s1)), s1, Successors(s, a)),
             OWN_VALUE: SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vstar(s)), s1, Successors(s, a)),
             OPTIMAL_Q_BY_REWARD: SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a)),
+            Q_REWARD_UNWEIGHTED: SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vstar(s1), s1, Successors(s, a)),
         },
     )
     TAIL_LEFT_OUT = Misconception(

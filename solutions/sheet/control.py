@@ -581,6 +581,9 @@ with evaluate(False):
         "t is the time of the pull that comes next; the number of pulls so far is one less.",
     )
     LOG_10_IN_UCB = Misconception("log-base", "The logarithm ln t under the root is natural, to the base e.")
+    ROOT_FORGOTTEN = Misconception(
+        "root-forgotten", "The bonus is c times the square root of (ln t)/N(a), not c times the quotient itself."
+    )
     UCB = Formula(
         "ucb",
         U(a),
@@ -591,6 +594,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             TIME_FOR_LOG: Q(a) + c * sqrt(t / N(a)),
+            ROOT_FORGOTTEN: Q(a) + c * log(t) / N(a),
             OWN_COUNT_FORGOTTEN: Q(a) + c * sqrt(log(t)),
             PULLS_FOR_TIME: Q(a) + c * sqrt(log(t - 1) / N(a)),
             LOG_10_IN_UCB: Q(a) + c * sqrt(log(t) / log(10) / N(a)),
@@ -616,6 +620,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             TIME_FOR_LOG: (Q(a) - Q(b)) / (sqrt(t / N(b)) - sqrt(t / N(a))),
+            ROOT_FORGOTTEN: (Q(a) - Q(b)) / (log(t) / N(b) - log(t) / N(a)),
             PULLS_FOR_TIME: (Q(a) - Q(b)) / (sqrt(log(t - 1) / N(b)) - sqrt(log(t - 1) / N(a))),
         },
     )

@@ -46,6 +46,8 @@ from rldrill.solutions.sheet.bellman import (
     LOOKAHEAD_STAR,
     MAX_FOR_MEAN,
     OPTIMAL_Q_BY_REWARD,
+    Q_REWARD_UNWEIGHTED,
+    REWARD_UNWEIGHTED,
     WITHOUT_GAMMA,
 )
 
@@ -93,6 +95,7 @@ with evaluate(False):
             FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
             MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)),
             ACTIONS_ALIKE: MeanOver(LOOKAHEAD, a, Actions(s)),
+            Q_REWARD_UNWEIGHTED: SumOver(pi(a, s) * REWARD_UNWEIGHTED, a, Actions(s)),
         },
     )
 
@@ -114,6 +117,9 @@ with evaluate(False):
         title="Policy iteration: evaluation",
         source="Sutton & Barto 2018, section 4.3",
         hint="Write one equation for every state, with the policy's action in it, and solve them together.",
+        misread={
+            Q_REWARD_UNWEIGHTED: SumOver(R(s, pi(s), s1) + P(s, pi(s), s1) * gamma * V(s1), s1, Successors(s, pi(s))),
+        },
     )
     IMPROVEMENT_BY_VALUE = Misconception(
         "by-next-value-alone", "The reward on the way counts too: compare reward plus γ times the next value."
@@ -149,6 +155,7 @@ with evaluate(False):
         misread={
             MEAN_FOR_MAX: MeanOver(LOOKAHEAD, a, Actions(s)),
             FORGOT_GAMMA: MaxOver(WITHOUT_GAMMA, a, Actions(s)),
+            Q_REWARD_UNWEIGHTED: MaxOver(REWARD_UNWEIGHTED, a, Actions(s)),
         },
     )
 

@@ -166,6 +166,9 @@ with evaluate(False):
     TENT_SQUARED = Misconception(
         "tent-squared", "The feature falls in a straight line: the distance itself counts, not its square."
     )
+    WIDTH_AND_CLAMP_FORGOTTEN = Misconception(
+        "width-forgotten-and-negative", WIDTH_FORGOTTEN.says, WIDTH_FORGOTTEN.when
+    )
     PIECEWISE_LINEAR_RBF = Formula(
         "piecewise-linear-rbf",
         phi(i, s),
@@ -176,6 +179,7 @@ with evaluate(False):
         misread={
             NOT_CLAMPED: 1 - distance(i) / width,
             WIDTH_FORGOTTEN: Greatest(Zero, 1 - distance(i)),
+            WIDTH_AND_CLAMP_FORGOTTEN: 1 - distance(i),
             TENT_SQUARED: Greatest(Zero, 1 - (distance(i) / width) ** 2),
         },
     )

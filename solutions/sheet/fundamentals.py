@@ -103,6 +103,10 @@ with evaluate(False):
         "history-left-out-below",
         "Below the line only the rows with the same whole history count, not all rows with the same present state.",
     )
+    ROWS_PUT_TOGETHER = Misconception(
+        "rows-put-together",
+        "Each history has a row of its own: rows with the same present state are not added up, they are compared.",
+    )
     COLUMN_FOR_ROW = Misconception(
         "column-for-row",
         "Divide by the total of the history's row: that of the column would give Pr(history|next state).",
@@ -119,6 +123,8 @@ with evaluate(False):
             JOINT_FOR_CONDITIONAL: _SEEN
             * Pow(SumOver(SumOver(SumOver(N(h, s, s1), s1, States), s, States), h, States), -1),
             HISTORY_LEFT_OUT: _SEEN * Pow(SumOver(SumOver(N(h, S(t), s1), s1, States), h, States), -1),
+            ROWS_PUT_TOGETHER: SumOver(N(h, S(t), S(t + 1)), h, States)
+            * Pow(SumOver(SumOver(N(h, S(t), s1), s1, States), h, States), -1),
             COLUMN_FOR_ROW: _SEEN * Pow(SumOver(SumOver(N(h, s, S(t + 1)), s, States), h, States), -1),
         },
     )

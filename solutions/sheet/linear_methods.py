@@ -917,6 +917,12 @@ ZERO_DERIVATIVE = letter("zeroDerivative", Glyph("0", "number"), matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, with rewards for costs"
 
 with evaluate(False):
+    OLD_ACTION_FORGOTTEN = Misconception(
+        "old-action-forgotten", "k and K(s − s̄) say by how much the action changes: the old action ā is added."
+    )
+    GAIN_TIMES_STATE = Misconception(
+        "gain-times-state", "The gain multiplies how far the state is from the old one, s − s̄, not the state itself."
+    )
     DDP = Formula(
         "ddp",
         av,
@@ -926,6 +932,10 @@ with evaluate(False):
         hint="Change the old action by k, and by K for every deviation from the old state.",
         note="Linearise the dynamics, make the reward quadratic, solve the LQR problem, repeat; "
         "iLQR leaves the second derivatives of $f$ out.",
+        misread={
+            OLD_ACTION_FORGOTTEN: kd + Kd * (sv - s_bar),
+            GAIN_TIMES_STATE: a_bar + kd + Kd * sv,
+        },
     )
     SECOND_DERIVATIVE = Formula(
         "ddp-second",

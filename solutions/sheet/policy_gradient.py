@@ -456,6 +456,12 @@ with evaluate(False):
     TERM_CLIPPED = Misconception(
         "term-clipped", "It is the ratio that is clipped; the advantage is multiplied with it afterwards."
     )
+    CLIPPED_ABOVE_ALONE = Misconception(
+        "clipped-above-alone", "The ratio is clipped on both sides: it is not below 1 − ε either."
+    )
+    CLIPPED_BELOW_ALONE = Misconception(
+        "clipped-below-alone", "The ratio is clipped on both sides: it is not above 1 + ε either."
+    )
     PPO_CLIPPED = Formula(
         "ppo-clipped",
         clipped(t),
@@ -466,6 +472,8 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             TERM_CLIPPED: Clipped(rho(t) * A_t(t), 1 - epsilon, 1 + epsilon),
+            CLIPPED_ABOVE_ALONE: Least(rho(t), 1 + epsilon) * A_t(t),
+            CLIPPED_BELOW_ALONE: Greatest(rho(t), 1 - epsilon) * A_t(t),
         },
     )
     CLIP_WITHOUT_MIN = Misconception(

@@ -25,6 +25,7 @@ OTHER_QUESTION = {
     "weights-interleaved": "w's own block is told",
     "width-forgotten": "b is asked or used before",
     "outer-step-from-adapted": "each of several tasks has an adapted parameter of its own",
+    "absolute-rates": "of more than two links it is not worked out",
     "update-for-target": "the step size is not stated where no target needs it, or is asked for",
 }
 
