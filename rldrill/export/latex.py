@@ -110,7 +110,9 @@ def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
         f"{'' if wrong.read is None else latex_block(wrong.read)}\n"
         for wrong in listed(exercise, part, _MISTAKES)
     )
-    return f"\n\\emph{{{latex_plain(title)}}}\n\\begin{{itemize}}\\raggedright\n{lines}\\end{{itemize}}\n" if lines else ""
+    if not lines:
+        return ""
+    return f"\n\\emph{{{latex_plain(title)}}}\n\\begin{{itemize}}\\raggedright\n{lines}\\end{{itemize}}\n"
 
 
 def _typed(part: Part, wrong: Wrong) -> str:

@@ -284,3 +284,8 @@ def test_a_long_equation_in_a_text_is_broken_before_its_relations_only() -> None
 def test_short_equations_side_by_side_share_a_line_with_those_that_follow() -> None:
     one, two, three = (Equation(Glyph(sign, "variable"), (Glyph("1", "number"),), ("=",)) for sign in "abc")
     assert document((Beside((one, two)), three)).count("#flow") == 1
+
+
+def test_a_colon_clings_to_what_stands_before_it() -> None:
+    assert typst(mathematics("t: s")) == 't class("normal", colon) thick s'
+    assert latex(mathematics("t: s")) == r"t \colon s"

@@ -30,6 +30,7 @@ _FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "co
 _BIGS = {"Σ": "sum", "Π": "product", "∏": "product", "∑": "sum", "∫": "integral"}
 _SIGNS = {
     ";": r"\; space",
+    ":": 'class("normal", colon) thick',
     "−": "minus",
     "-": "minus",
     "·": "dot.op",
