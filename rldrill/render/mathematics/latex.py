@@ -17,7 +17,7 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     is_sign,
-    with_one_index,
+    with_joined_scripts,
 )
 from rldrill.render.mathematics.spacing import is_tall, needs_space, parted
 from rldrill.render.mathematics.unicode import ABOVE, BELOW, unmarked
@@ -88,7 +88,7 @@ def latex(math: Math) -> str:
         case Fraction(numerator, denominator):
             return rf"\frac{{{latex(numerator)}}}{{{latex(denominator)}}}"
         case Script():
-            return _script(with_one_index(math))
+            return _script(with_joined_scripts(math))
         case Fence(body, left, right):
             if is_tall(body):
                 return rf"\left{_fence(left)} {latex(body)} \right{_fence(right)}"
