@@ -161,11 +161,11 @@ def number(value: object) -> Math:
     return row(operator("−"), magnitude) if minus else magnitude
 
 
-def with_one_index(script: Script) -> Script:
-    """The index of what has an index stands beside that one, not below it: ``A_{Δ,13}``."""
+def with_joined_scripts(script: Script) -> Script:
+    """The index of what has an index stands beside that one, ``A_{Δ,13}``, and a power above it, ``w_i^2``."""
     match script:
-        case Script(Script(body, inner, None), outer, above) if inner is not None and outer is not None:
-            return Script(body, row(inner, punctuation(","), outer), above)
+        case Script(Script(body, inner, None), outer, above) if inner is not None:
+            return Script(body, inner if outer is None else row(inner, punctuation(","), outer), above)
     return script
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Wrong, answer, typeset, wrong_answers
+from rldrill.export.asked import Wrong, answer, listed, typeset
 from rldrill.export.page import beside
 from rldrill.print.solved import with_mathematics
 from rldrill.print.words import Words, words
@@ -107,7 +107,7 @@ def _asked(exercise: Exercise, part: Part) -> str:
 
 
 def _solved(exercise: Exercise, part: Part, told: Words) -> str:
-    wrong = "".join(_wrong(part, each) for each in wrong_answers(exercise, part, _MISTAKES))
+    wrong = "".join(_wrong(part, each) for each in listed(exercise, part, _MISTAKES))
     mistakes = f"<p>{told.mistakes}</p><ul>{wrong}</ul>" if wrong else ""
     return (
         f"<p><b>{_label(exercise, part)}</b></p>{_HTML.block(answer(exercise, part))}"

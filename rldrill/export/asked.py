@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from itertools import islice
 from typing import Any
 
 from msgspec import Struct
@@ -10,6 +11,7 @@ from msgspec import Struct
 from rldrill.entries import by_name
 from rldrill.exam.choices import Language
 from rldrill.exercise import Exercise
+from rldrill.print.possible import is_possible
 from rldrill.print.words import Words, words
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.mathematics import Math
@@ -128,6 +130,12 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
             continue  # a number so large that nobody types it
         value = answer_kind(part.kind).value({name: _content(cell) for name, cell in found.items()})
         yield Wrong(tuple(map(_typed, found.values())), value, by_name(wrong.sentence, part.kind), wrong.read)
+
+
+def listed(exercise: Exercise, part: Part, most: int) -> Iterator[Wrong]:
+    """Wrong answers to a part that a reader is told; those that the statement rules out are recognised only."""
+    possible = (each for each in wrong_answers(exercise, part, 2 * most) if is_possible(exercise, part, each.value))
+    return islice(possible, most)
 
 
 def typeset(part: Part, wrong: Wrong) -> Sequence[Math]:

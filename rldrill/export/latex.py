@@ -2,7 +2,7 @@
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Wrong, answer, typeset, wrong_answers
+from rldrill.export.asked import Wrong, answer, listed, typeset
 from rldrill.export.words import page_words
 from rldrill.print.solved import with_mathematics
 from rldrill.print.words import Words, words
@@ -108,9 +108,11 @@ def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
     lines = "".join(
         f"\\item {_typed(part, wrong)}: {latex_text(with_mathematics(wrong.says))}"
         f"{'' if wrong.read is None else latex_block(wrong.read)}\n"
-        for wrong in wrong_answers(exercise, part, _MISTAKES)
+        for wrong in listed(exercise, part, _MISTAKES)
     )
-    return f"\n\\emph{{{latex_plain(title)}}}\n\\begin{{itemize}}\n{lines}\\end{{itemize}}\n" if lines else ""
+    if not lines:
+        return ""
+    return f"\n\\emph{{{latex_plain(title)}}}\n\\begin{{itemize}}\\raggedright\n{lines}\\end{{itemize}}\n"
 
 
 def _typed(part: Part, wrong: Wrong) -> str:

@@ -8,6 +8,7 @@ from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
 from rldrill.misreading import misreading
 from rldrill.print.exam_page import label
+from rldrill.print.possible import is_possible
 from rldrill.print.words import words, written_points
 from rldrill.problems.document import Block
 from rldrill.problems.notations import all_in_notation
@@ -75,7 +76,7 @@ def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, Misconception]
             return
         answer = answers[part.label]
         written = answer_kind(part.kind).write(answer)
-        if written in told or not _tells(exercise, part, answer):
+        if written in told or not _tells(exercise, part, answer) or not is_possible(exercise, part, answer):
             continue
         told.add(written)
         if isinstance(part.kind, Choice):

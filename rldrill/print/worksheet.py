@@ -33,10 +33,7 @@ def worksheet_source(exam: Exam, version: Version) -> str:
     """The worksheet that is handed out, as Typst source; with the solutions in it where they are wanted inline."""
     told = words(exam.head.language)
     what = f"{told.version} {version.code}"
-    count = len(version.exercises)
-    problems = "".join(
-        _problem(exam, index, item, together=index == count) for index, item in enumerate(version.exercises, 1)
-    )
+    problems = "".join(_problem(exam, version, index) for index in range(1, len(version.exercises) + 1))
     lines = f"{_points_tables(version, told)}#par[{_instructions(exam, version, told)}]\n"
     head = setup(exam, version, what, to_fill_in=True)
     return f"{head}{front(exam, what, lines)}{problems}{ending(exam, told)}"
@@ -66,11 +63,13 @@ def _points_tables(version: Version, told: Words) -> str:
     return "".join(result)
 
 
-def _problem(exam: Exam, index: int, exercise: Exercise, *, together: bool) -> str:
-    """A problem; the parts of the last one stay together, so that none of them is alone on the last page."""
-    *before, last = exercise.parts
-    asked = "".join(_part(exam, exercise, part, together=together) for part in before)
-    asked += _part(exam, exercise, last, together=False)
+def _problem(exam: Exam, version: Version, index: int) -> str:
+    """A problem; the last part of all stays with the one before, so that it is not alone on the last page."""
+    exercise = version.exercises[index - 1]
+    kept = exercise.parts[-2:-1] if index == len(version.exercises) else ()
+    if index == 1 and len(exercise.parts) == 2:  # the page would be left to the title
+        kept = ()
+    asked = "".join(_part(exam, exercise, part, together=part in kept) for part in exercise.parts)
     question = document(exercise.question())
     return f"{heading(exam, index, exercise, identified=exam.layout.ids)}#statement[{question}]\n{asked}"
 

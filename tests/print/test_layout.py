@@ -52,7 +52,7 @@ def test_a_page_that_goes_on_with_a_problem_says_with_which() -> None:
     assert any(line.startswith("(b) Which action") for line in pages[2][:4])
 
 
-def test_the_parts_of_the_last_problem_stay_together() -> None:
+def test_the_last_part_of_all_stays_with_the_one_before() -> None:
     pages = _pages(*_RUNS, "value-iteration/2/1")
     parts = [[line[:3] for line in page if "sweeps?" in line or "Which action" in line] for page in pages]
     assert parts == [[], [], ["(a)", "(b)"]]

@@ -1,5 +1,6 @@
 """State diagrams: heads end on the edge of what is drawn for a state, and it is clear what a label belongs to."""
 
+import math
 from collections import Counter
 from itertools import combinations
 
@@ -138,3 +139,15 @@ def test_labels_of_state_diagrams_belong_to_one_thing() -> None:
             rng = Draws(f"labels {seed}")
             found.append(muddles(state_diagram(draw_model(rng, draw_setting(rng), Shape(*shape)))))
     assert sum(map(bool, found)) <= 1, [each for each in found if each]
+
+
+def test_no_two_heads_land_on_one_spot() -> None:
+    close = 0
+    for shape in [(2, 2, 2), (3, 2, 1), (3, 2, 2)]:
+        for seed in range(10):
+            rng = Draws(f"labels {seed}")
+            scene = scene_of(state_diagram(draw_model(rng, draw_setting(rng), Shape(*shape))))
+            assert scene is not None
+            tips = [each.end for each in scene.shapes if isinstance(each, Curve)]
+            close += sum(math.dist(one, two) < 6 for one, two in combinations(tips, 2))
+    assert close <= 1

@@ -32,7 +32,7 @@ from rldrill.problems.mathematics import (
     operator,
     row,
     variable,
-    with_one_index,
+    with_joined_scripts,
     word,
 )
 from rldrill.render.mathematics.latex import latex
@@ -265,7 +265,8 @@ def test_an_index_of_what_has_one_stands_beside_it_in_every_notation() -> None:
     assert latex(entry) == r"A_{\Delta , 13}"
     assert mathml(entry).count("<msub>") == 1
     power = Script(Script(Glyph("A", "variable"), Glyph("t", "variable")), above=Glyph("T", "word"))
-    assert with_one_index(power) == power
+    assert with_joined_scripts(power) == Script(Glyph("A", "variable"), Glyph("t", "variable"), Glyph("T", "word"))
+    assert latex(power) == r"A_{t}^{\text{T}}"
 
 
 def test_a_comma_has_its_space_before_a_sign_and_a_fraction() -> None:
@@ -284,3 +285,8 @@ def test_a_long_equation_in_a_text_is_broken_before_its_relations_only() -> None
 def test_short_equations_side_by_side_share_a_line_with_those_that_follow() -> None:
     one, two, three = (Equation(Glyph(sign, "variable"), (Glyph("1", "number"),), ("=",)) for sign in "abc")
     assert document((Beside((one, two)), three)).count("#flow") == 1
+
+
+def test_a_colon_clings_to_what_stands_before_it() -> None:
+    assert typst(mathematics("t: s")) == 't class("normal", colon) thick s'
+    assert latex(mathematics("t: s")) == r"t \colon s"

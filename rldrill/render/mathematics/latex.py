@@ -17,7 +17,7 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     is_sign,
-    with_one_index,
+    with_joined_scripts,
 )
 from rldrill.render.mathematics.spacing import is_tall, needs_space, parted
 from rldrill.render.mathematics.unicode import ABOVE, BELOW, unmarked
@@ -27,8 +27,8 @@ _COMMANDS = {
     "λ": r"\lambda", "μ": r"\mu", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "τ": r"\tau", "φ": r"\phi", "χ": r"\chi",
     "ξ": r"\xi", "∞": r"\infty", "∇": r"\nabla", "𝔼": r"\mathbb{E}", "·": r"\cdot", "×": r"\times", "±": r"\pm",
     "−": "-", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "←": r"\leftarrow", "→": r"\to",
-    "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "Π": r"\prod",
-    "∫": r"\int",
+    "∈": r"\in", "…": r"\dots", "|": r"\mid", ":": r"\colon", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum",
+    "Π": r"\prod", "∫": r"\int",
     "max": r"\max", "min": r"\min", "arg max": r"\operatorname*{arg\,max}", "ln": r"\ln", "exp": r"\exp",
     "log": r"\log", "sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "∂": r"\partial", "Δ": r"\Delta", "ω": r"\omega",
     "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
@@ -88,7 +88,7 @@ def latex(math: Math) -> str:
         case Fraction(numerator, denominator):
             return rf"\frac{{{latex(numerator)}}}{{{latex(denominator)}}}"
         case Script():
-            return _script(with_one_index(math))
+            return _script(with_joined_scripts(math))
         case Fence(body, left, right):
             if is_tall(body):
                 return rf"\left{_fence(left)} {latex(body)} \right{_fence(right)}"

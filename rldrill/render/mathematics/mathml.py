@@ -19,7 +19,7 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     is_sign,
-    with_one_index,
+    with_joined_scripts,
 )
 from rldrill.render.mathematics.spacing import is_tall, needs_space
 from rldrill.render.mathematics.unicode import unmarked
@@ -53,7 +53,7 @@ def element(math: Math) -> str:
         case Fraction(numerator, denominator):
             return f"<mfrac>{element(numerator)}{element(denominator)}</mfrac>"
         case Script():
-            return _script(with_one_index(math))
+            return _script(with_joined_scripts(math))
         case Fence(body, left, right):
             grows = is_tall(body)
             brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)

@@ -21,7 +21,7 @@ from rldrill.problems.mathematics import (
     Script,
     Style,
     Tabular,
-    with_one_index,
+    with_joined_scripts,
 )
 from rldrill.render.mathematics.spacing import parted
 from rldrill.render.mathematics.unicode import unicode
@@ -30,6 +30,7 @@ _FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "co
 _BIGS = {"Σ": "sum", "Π": "product", "∏": "product", "∑": "sum", "∫": "integral"}
 _SIGNS = {
     ";": r"\; space",
+    ":": 'class("normal", colon) thick',
     "−": "minus",
     "-": "minus",
     "·": "dot.op",
@@ -60,7 +61,7 @@ def typst(math: Math) -> str:
         case Fraction(numerator, denominator):
             return f"frac({typst(numerator)}, {typst(denominator)})"
         case Script():
-            return _script(with_one_index(math))
+            return _script(with_joined_scripts(math))
         case Fence(body, left, right):
             return f"lr({typst_fence(left)} {typst(body)} {typst_fence(right)})"
         case Big(sign, below, above):

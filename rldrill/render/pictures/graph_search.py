@@ -26,6 +26,7 @@ _CROSSING = 900
 _THROUGH = 4000
 _TOUCHING = 700
 _ALONG, _APART = 160, 55  # two lines so close for a while
+_MEETING, _HEAD = 500, 70  # two heads so close
 _BEND = 25
 _ROUNDS = 3
 _CLEAR = 60
@@ -190,7 +191,7 @@ def _alone(states: States, lines: Ints, bends: Ints, target: int, size: tuple[in
 
 def _best(option: _Options, others: list[tuple[_Options, _Choice]]) -> tuple[_Choice, int]:
     """The cheapest way to draw an action beside the others."""
-    drawn, points, dots, boxes = _drawn(others)
+    drawn, points, dots, boxes, tips = _drawn(others)
     place_cost = option.own + crossings(segments(option.stems), drawn) * _CROSSING
     place_cost = place_cost + _close(option.places[:, None], dots, 260).sum(axis=1) * _THROUGH
     tables = []
@@ -200,6 +201,7 @@ def _best(option: _Options, others: list[tuple[_Options, _Choice]]) -> tuple[_Ch
         cost = cost + _close(flat, dots, 90).any(axis=1) * _THROUGH
         cost = cost + overlapping(boxes_around(flat[:, COARSE // 2], size), boxes).sum(axis=1) * _TOUCHING
         cost = cost + _alongside(flat[:, 2:-1:2], points) * _ALONG
+        cost = cost + _close(flat[:, -1:], tips, _HEAD).sum(axis=1) * _MEETING
         tables.append(cost.reshape(each.shape))
         place_cost = place_cost + tables[-1].min(axis=1)
     place = int(np.argmin(place_cost))
@@ -216,6 +218,7 @@ def _untangled(option: _Options, choice: _Choice, costs: list[Ints]) -> _Choice:
         beside = np.stack([option.lines[i][place, choice.bends[i]] for i in siblings])
         cost = cost + crossings(_pieces(lines), _pieces(beside).reshape(-1, 4)) * _CROSSING
         cost = cost + _alongside(lines[:, 2::2], beside[:, 2:].reshape(-1, 2)) * _ALONG
+        cost = cost + _close(lines[:, -1:], beside[:, -1], _HEAD).sum(axis=1) * _MEETING
         boxes = np.concatenate(
             [boxes_around(b[None, COARSE // 2], option.sizes[i]) for b, i in zip(beside, siblings, strict=True)]
         )
@@ -225,12 +228,13 @@ def _untangled(option: _Options, choice: _Choice, costs: list[Ints]) -> _Choice:
     return choice
 
 
-def _drawn(others: list[tuple[_Options, _Choice]]) -> tuple[Ints, Ints, Ints, Ints]:
-    """What is drawn already: pieces of lines, points along them, dots, and boxes of labels on their curves."""
+def _drawn(others: list[tuple[_Options, _Choice]]) -> tuple[Ints, Ints, Ints, Ints, Ints]:
+    """What is drawn already: pieces of lines, points along them, dots, boxes of labels on curves, and their tips."""
     pieces = [np.zeros((0, 4), dtype=np.int64)]
     boxes = [np.zeros((0, 4), dtype=np.int64)]
     dots = [np.zeros((0, 2), dtype=np.int64)]
     points = [np.zeros((0, 2), dtype=np.int64)]
+    tips = [np.zeros((0, 2), dtype=np.int64)]
     for option, choice in others:
         dots.append(option.places[choice.place][None])
         pieces.append(segments(option.stems[choice.place][None]).reshape(-1, 4))
@@ -241,7 +245,14 @@ def _drawn(others: list[tuple[_Options, _Choice]]) -> tuple[Ints, Ints, Ints, In
             pieces.append(_pieces(line).reshape(-1, 4))
             points.append(line[0, 1:-1])
             boxes.append(boxes_around(line[:, COARSE // 2], size))
-    return np.concatenate(pieces), np.concatenate(points), np.concatenate(dots), np.concatenate(boxes)
+            tips.append(line[:, -1])
+    return (
+        np.concatenate(pieces),
+        np.concatenate(points),
+        np.concatenate(dots),
+        np.concatenate(boxes),
+        np.concatenate(tips),
+    )
 
 
 def _pieces(curves: Ints) -> Ints:
