@@ -367,6 +367,18 @@ def test_vectors_refused(text, length, fragment):
     assert fragment in refusal(read_vector, text, length).message
 
 
+@pytest.mark.parametrize("text", ["1 + 2 gamma", "[1 + 2 (gamma)]", "1 - 2 √2"])
+def test_a_space_in_a_product_is_not_taken_for_one_between_entries(text):
+    assert (
+        "may be a product or two entries; write * or a comma there." in refusal(read_vector, text, 2, ["gamma"]).message
+    )
+
+
+def test_spaces_part_entries_that_are_no_factors():
+    for text in ("1 + 2γ 2", "[1 + 2γ  γ]", "2 γ"):
+        assert len(read_vector(text, 2, ["gamma"])) == 2
+
+
 def test_too_few_numbers_of_a_vector_are_told_which_are_needed():
     assert refusal(read_vector, "1", 2, (), ["x", "y"]).message == "1 number was read, 2 are needed: x, y."
     assert refusal(read_vector, "1, 2, 3", 2, (), ["x", "y"]).message == "3 numbers were read, 2 are needed: x, y."
