@@ -159,8 +159,13 @@ def nested_rows(source: Source) -> list[list[Source]] | None:
     return None
 
 
-def plain_rows(source: Source, *, spaced: bool) -> list[list[Source]]:
-    """The entries of rows that end with a semicolon or a line; ``spaced`` where there must be several."""
+def plain_rows(source: Source, *, spaced: bool, column: int = 0) -> list[list[Source]]:
+    """The entries of rows that end with a semicolon or a line; ``spaced`` where there must be several.
+
+    Of as many rows as a ``column`` is long each is one entry: ``1 2/3; 1 1/3``.
+    """
     body, wrapped = unwrapped(source)
     rows = filled(body.split(";\n"))
+    if len(rows) == column > 1:
+        return [entries_of(row, False) for row in rows]
     return [entries_of(row, spaced or wrapped or len(rows) > 1 or row.has("|")) for row in rows]
