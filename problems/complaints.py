@@ -76,8 +76,8 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
         known = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
         return f"given{path} is not a field{near}; {known}{more}."
     told = says(first)
-    if first["type"] == "model_type" and (names := _known(schema, schema, place)):
-        told = f"{told}: {', '.join([*names[:_SHOWN], *['…'][: len(names) > _SHOWN]])}"
+    if first["type"] == "model_type" and 0 < len(names := dict.fromkeys(_known(schema, schema, place))) <= _SHOWN:
+        told = f"{told}: {', '.join(names)}"
     if begun := _PLACE.match(told):  # what a whole model says of one of its fields
         path, told = f"{path}.{begun[1]}", told[begun.end() :]
     return f"given{path}: {told}{more}."

@@ -1,8 +1,10 @@
 """Models in other forms than a list of transitions: grids drawn as text, and Gymnasium's tables."""
 
+import re
 from typing import Any
 
 import pytest
+from flint import fmpq
 from pydantic import ValidationError
 
 from asking import solved
@@ -232,3 +234,35 @@ def test_a_grid_may_be_drawn_with_blanks_or_bars_between_its_cells(drawn: str) -
     # r1c1 is three moves from r2c3: right, right, down
     given = {"mdp": {"grid": drawn, "step": -1, "ends": ["G"]}, "gamma": 1}
     assert solved("optimal-value", **given)["a"] == {"r1c1": -3, "r1c2": -2, "r1c3": -1, "r2c1": -4}
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "s\ta\ts'\tprob\tr\nA\tgo\tB\t50%\t1\nA\tgo\tend\t0,5\t-1\nB\tgo\tend\t1\t2\n",
+        "\nstate,action,next,p,reward\nA,go,B,1/2,1\nA,go,end,1/2,-1\nB,go,end,1,2\n",
+        "|s|a|s'|p|r|\n|--|--|--|--|--|\n|A|go|B|1/2|1|\n|A|go|end|1/2|-1|\n|B|go|end|1|2|",
+        [
+            {"s": "A", "a": "go", "s'": "B", "p": 0.5, "r": 1},
+            {"s": "A", "a": "go", "s'": "end", "p": 0.5, "r": -1},
+            {"s": "B", "a": "go", "s'": "end", "p": 1, "r": 2},
+        ],
+    ],
+)
+def test_transitions_may_be_a_table_that_is_pasted(written: object) -> None:
+    # B: 2; A: (1 + 9/10·2)/2 − 1/2 = 9/10
+    given = {"mdp": {"transitions": written, "terminal": ["end"]}, "gamma": "9/10"}
+    assert solved("optimal-value", **given)["a"] == {"A": fmpq(9, 10), "B": 2}
+
+
+@pytest.mark.parametrize(
+    ("written", "says"),
+    [
+        ("A go B 1 1\nB go A 1 1", "transitions: the column 'A go B 1 1' is not known; call the columns state, action"),
+        ("s,a,s',r\nA,go,B\n", "transitions: line 2 has 3 entries, the header has 4; make them equal"),
+        ([{"s": "A", "a": "go", "r": 1}], "transitions: the column 'next' is missing"),
+    ],
+)
+def test_a_pasted_table_that_does_not_fit(written: object, says: str) -> None:
+    with pytest.raises(ValidationError, match=re.escape(says)):
+        Model.model_validate({"transitions": written})
