@@ -96,14 +96,22 @@ def read_form(data: object, note: Note) -> object:
         raise ValueError("a file is read for problems that stand in a file themselves; give the transitions here")
     if "grid" in data:
         return read_grid(data, note)
+    if "P" in data and "gymnasium" not in data:
+        return _read_P(data, note)
     for key, read in _FORMS.items():
         if key in data:
             return read(data)
     return data
 
 
-def _read_P(data: Mapping[str, Any]) -> dict[str, Any]:
-    return gymnasium.read_table(data) if isinstance(data["P"], Mapping) else arrays.read_arrays(data)
+def _read_P(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
+    P = data["P"]
+    if isinstance(P, Mapping):
+        return gymnasium.read_table(data)
+    model = arrays.read_arrays(data)
+    if len(P) == len(P[0]):  # the other order would fit, too
+        note("took P for P[action][state][next], as pymdptoolbox has it")
+    return model
 
 
 def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -216,7 +224,6 @@ def _earned(paid: Mapping[str, Any], state: str, action: str) -> Any:
 
 _FORMS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "gymnasium": gymnasium.read_environment,
-    "P": _read_P,
     "rewards": _read_rewards,
     "transitions": _read_transitions,
 }

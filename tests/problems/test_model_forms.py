@@ -12,8 +12,10 @@ from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 from rldrill.problems.gymnasium import from_table
-from rldrill.problems.model_forms import SCHEMAS
+from rldrill.problems.model_forms import SCHEMAS, read_form
 from rldrill.problems.models import Model, sums_to_one, transitions_table
+
+SQUARE = "took P for P[action][state][next], as pymdptoolbox has it"
 
 # The 4×3 world of Russell & Norvig, AIMA, section 17.1: moves succeed with 0.8 and slip to either side with 0.1.
 AIMA = {"grid": "...G\n.#.P\n....", "rewards": {"G": 1, "P": -1}, "step": "-0.04", "slip": "0.2"}
@@ -266,3 +268,10 @@ def test_transitions_may_be_a_table_that_is_pasted(written: object) -> None:
 def test_a_pasted_table_that_does_not_fit(written: object, says: str) -> None:
     with pytest.raises(ValidationError, match=re.escape(says)):
         Model.model_validate({"transitions": written})
+
+
+@pytest.mark.parametrize(("P", "told"), [([[[1, 0], [0, 1]]], []), ([[[1, 0], [0, 1]], [[0, 1], [1, 0]]], [SQUARE])])
+def test_it_is_told_how_arrays_are_read_whose_order_cannot_be_seen(P: object, told: list[str]) -> None:
+    notes: list[str] = []
+    read_form({"P": P, "R": [0, 1]}, notes.append)
+    assert notes == told
