@@ -236,7 +236,9 @@ class _Parser:
         if token.text in ("e", "E") and before.kind in _NUMBERS:
             self._check_exponent()
         if token.kind in _NUMBERS or before.kind in ("%", "°"):
-            raise self._error(f"{quoted(token.text)} follows without a sign; write * before it if it is a factor.")
+            power = ", or ^ if it is a power" if before.kind == "name" and token.kind == "number" else ""
+            what = f"{quoted(token.text)} follows without a sign"
+            raise self._error(f"{what}; write * before it if it is a factor{power}.")
         if divided:
             what = quoted(f"/{before.text}{token.text}")
             raise self._error(f"{what} may be read in two ways; write brackets, as in 1/(2γ) or (1/2)γ.")

@@ -129,6 +129,13 @@ def test_what_may_be_read_in_two_ways_is_refused_with_both(text: str) -> None:
     assert REFUSED[text] in refused.value.message
 
 
+def test_a_power_may_have_lost_its_place() -> None:
+    with pytest.raises(
+        Unreadable, match=r"'2' follows without a sign; write \* before it if it is a factor, or \^ if it"
+    ):
+        read_number("1 + 3γ2", ["gamma"])
+
+
 def test_x_is_a_parameter_where_the_problem_has_one() -> None:
     assert read_number("2x", ["x"]).echo == "2*x"
     with pytest.raises(Unreadable, match="follows without a sign"):

@@ -55,7 +55,7 @@ LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
         ({"few": 1}, "given.few: must be a list; a single entry, too, stands in brackets: [1]."),
         ({"few": "ab"}, "given.few: must be a list; a single entry, too, stands in brackets: ['ab']."),
         ({"few": "1, 2"}, "given.few: must be a list; a single entry, too, stands in brackets: ['1', '2']."),
-        ({"few": "[1 -2 .5]"}, "given.few: must be a list; a single entry, too, stands in brackets: ['1', '-2', '.5']."),
+        ({"few": "[1 2 .5]"}, "given.few: must be a list; a single entry, too, stands in brackets: ['1', '2', '.5']."),
         ({"few": "no rain"}, "given.few: must be a list; a single entry, too, stands in brackets: ['no rain']."),
         ({"few": "[1; 2,5]"}, "given.few: must be a list; a single entry, too, stands in brackets: ['1', '2,5']."),
         (
