@@ -251,7 +251,7 @@ REFUSED = {
     "e^2γ": "two ways; write brackets",
     "ln 2/3": "two ways; put it in brackets",
     "ln2/3": "two ways; put it in brackets",
-    "log2(8)": "two ways; put it in brackets",
+    "log2(8)": "log is the natural logarithm here; write ln(…)/ln(2)",
     "√2^2": "two ways; put it in brackets",
     "2/1 3/4": "two ways here; put brackets",
     "1 3/4γ": "two ways here; put brackets",
