@@ -87,7 +87,9 @@ AngleField = Annotated[
     Angle,
     BeforeValidator(read_angle),
     PlainSerializer(str, return_type=str),
-    WithJsonSchema({"type": ["string", "number"], "title": "an angle, a number or a multiple of pi such as 'pi/6'"}),
+    WithJsonSchema(
+        {"type": ["string", "number"], "title": "an angle, a number or a multiple of pi such as 'pi/6', or '30°'"}
+    ),
 ]
 #: The angle of a joint or a link.
 JointField = Annotated[AngleField, AfterValidator(lambda angle: turned(angle))]

@@ -18,6 +18,7 @@ _TRUTH = "{given} is neither true nor false; write one of them"
 _LIST = "must be a list; a single entry, too, stands in brackets: {listed}"
 #: Between the entries of a list that was given as one text; a comma without a space may be a decimal one.
 _BETWEEN = re.compile(r"\s*;\s*|,\s+")
+_SPACED, _NUMBERS = re.compile(r"\s+"), re.compile(r"[-+−]?[\d./]+(?:\s+[-+−]?[\d./]+)+")
 #: So many of them are shown.
 _SHOWN = 5
 #: What fields are called elsewhere.
@@ -76,8 +77,8 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
         known = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
         return f"given{path} is not a field{near}; {known}{more}."
     told = says(first)
-    if first["type"] == "model_type" and (names := _known(schema, schema, place)):
-        told = f"{told}: {', '.join([*names[:_SHOWN], *['…'][: len(names) > _SHOWN]])}"
+    if first["type"] == "model_type" and 0 < len(names := dict.fromkeys(_known(schema, schema, place))) <= _SHOWN:
+        told = f"{told}: {', '.join(names)}"
     if begun := _PLACE.match(told):  # what a whole model says of one of its fields
         path, told = f"{path}.{begun[1]}", told[begun.end() :]
     return f"given{path}: {told}{more}."
@@ -125,7 +126,10 @@ def says(fault: Mapping[str, Any]) -> str:
 
 def _as_list(given: str | int) -> str:
     """What was given without brackets, or with quotes around all of it, as the list that was meant."""
-    entries = _BETWEEN.split(given.strip(" []()")) if isinstance(given, str) else [given]
+    entries = [given]
+    if isinstance(given, str):
+        inside = given.strip(" []()")
+        entries = (_SPACED if _NUMBERS.fullmatch(inside) else _BETWEEN).split(inside)
     shown = [called(entry) for entry in entries[:_SHOWN]]
     return f"[{', '.join([*shown, '…'] if len(entries) > _SHOWN else shown)}]"
 

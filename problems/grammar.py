@@ -38,6 +38,7 @@ _ENDS = ("number", "mixed", "repeating", "name", "raised", ")", "}", "]", "%", "
 _LOOSE = {"(", "{", "[", "+", "-", "*", ",", ";", ")", "}", "]", "end"}  # what may stand beside a mixed number
 _NUMBERS = ("number", "mixed", "repeating")
 _OF_ANGLES = ("sin", "cos", "tan")
+_BASES = ("2", "10")  # of log2(…) and log10(…)
 #: Signs that are typed as words, or raised: minus 1/2, 50 percent, 45 deg, 45^∘
 _SPOKEN = re.compile(
     r"(?P<minus>(?<!\w)(?:minus|negative)(?=\s))|(?<=[\w)}\s])(?P<percent>per\s?cent\b)"
@@ -235,7 +236,9 @@ class _Parser:
         if token.text in ("e", "E") and before.kind in _NUMBERS:
             self._check_exponent()
         if token.kind in _NUMBERS or before.kind in ("%", "°"):
-            raise self._error(f"{quoted(token.text)} follows without a sign; write * before it if it is a factor.")
+            power = ", or ^ if it is a power" if before.kind == "name" and token.kind == "number" else ""
+            what = f"{quoted(token.text)} follows without a sign"
+            raise self._error(f"{what}; write * before it if it is a factor{power}.")
         if divided:
             what = quoted(f"/{before.text}{token.text}")
             raise self._error(f"{what} may be read in two ways; write brackets, as in 1/(2γ) or (1/2)γ.")
@@ -423,6 +426,9 @@ class _Parser:
         if self._token.kind not in ("number", "name", "√"):
             raise self._error(f"Put what {name} is taken of in brackets: {name}(…).")
         argument = self._degrees(self._atom())
+        if name == "log" and self._before.text in _BASES and self._token.kind == "(":
+            base = self._before.text
+            raise self._error(f"log is the natural logarithm here; write ln(…)/ln({base}) for that to the base {base}.")
         square = isinstance(argument, Numeral) and argument.value == isqrt(int(argument.value)) ** 2  # √9/16
         line = () if name == "sqrt" and not square else ("/",)
         unclear = ("^", "raised", "%", "name", "(", "{", "√", *_ROOTS, *_NUMBERS, *line)

@@ -73,10 +73,10 @@ def _all_even(series: tuple[Rows, ...]) -> tuple[Rows, ...]:
 _Exact = Annotated[tuple[tuple[Exact, ...], ...], BeforeValidator(_rows)]
 _Open = Annotated[tuple[tuple[Open, ...], ...], BeforeValidator(_rows)]
 _MATRIX: dict[str, Any] = {
-    "title": "a matrix, as a list of rows (a number, if it is 1×1)",
+    "title": "a matrix, as a list of rows, or a text such as '[1 2; 3 4]' (a number, if it is 1×1)",
     "type": ["array", "number", "string"],
 }
-_BY_TIME = _MATRIX | {"title": "a matrix, as a list of rows, or a list of matrices"}
+_BY_TIME = _MATRIX | {"title": "a matrix, as a list of rows or a text such as '[1 2; 3 4]', or a list of matrices"}
 MatrixField = Annotated[_Exact, AfterValidator(_even), WithJsonSchema(_MATRIX)]
 OpenMatrixField = Annotated[_Open, AfterValidator(_even), WithJsonSchema(_MATRIX)]
 #: A matrix without anything left open.

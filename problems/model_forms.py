@@ -96,20 +96,33 @@ def read_form(data: object, note: Note) -> object:
         raise ValueError("a file is read for problems that stand in a file themselves; give the transitions here")
     if "grid" in data:
         return read_grid(data, note)
+    if "P" in data and "gymnasium" not in data:
+        return _read_P(data, note)
     for key, read in _FORMS.items():
         if key in data:
             return read(data)
     return data
 
 
-def _read_P(data: Mapping[str, Any]) -> dict[str, Any]:
-    return gymnasium.read_table(data) if isinstance(data["P"], Mapping) else arrays.read_arrays(data)
+def _read_P(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
+    P = data["P"]
+    if isinstance(P, Mapping):
+        return gymnasium.read_table(data)
+    model = arrays.read_arrays(data)
+    if len(P) == len(P[0]):  # the other order would fit, too
+        note("took P for P[action][state][next], as pymdptoolbox has it")
+    return model
 
 
 def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Transitions as they are, or those of a process without actions: ``[state, next, probability, reward]``."""
+    """Transitions as they are, as a table with a header, or of a process without actions.
+
+    The rows of such a process are ``[state, next, probability, reward]``.
+    """
     rows = data["transitions"]
     given = dict(data)
+    if isinstance(rows, str) or (isinstance(rows, list) and rows and all(isinstance(row, Mapping) for row in rows)):
+        return _read_table(rows) | {name: field for name, field in given.items() if name != "transitions"}
     if not isinstance(rows, list | tuple) or not any(isinstance(row, list) and len(row) == 4 for row in rows):
         return given
     states = {str(row[0]) for row in rows if isinstance(row, list) and row} | {*map(str, data.get("terminal", ()))}
@@ -121,6 +134,19 @@ def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
             )
     given["transitions"] = [[state, ALONE, after, chance, reward] for state, after, chance, reward in rows]
     return given
+
+
+def _read_table(rows: Any) -> dict[str, Any]:
+    from rldrill.problems import transition_tables
+
+    try:
+        if not isinstance(rows, str):
+            return transition_tables.read_records(rows)
+        if rows.lstrip().startswith("|"):
+            return transition_tables.read_markdown_table(rows)
+        return transition_tables.read_transition_table(rows.strip("\n"))
+    except ValueError as error:
+        raise ValueError(f"transitions: {error}") from None
 
 
 def _is_number(value: object) -> bool:
@@ -144,8 +170,10 @@ def _read_rewards(data: Mapping[str, Any]) -> dict[str, Any]:
     if on not in ("leaving", "entering"):
         raise ValueError(f"rewards_on: {on!r} is not possible here; write 'leaving' or 'entering'")
     rows = given.get("transitions")
-    if not isinstance(rewards, Mapping) or not isinstance(rows, list | tuple):
+    if not isinstance(rewards, Mapping):
         raise ValueError("rewards: must be a table beside transitions, with a reward for every state")
+    if not isinstance(rows, list | tuple):
+        raise ValueError("transitions: beside rewards, write a list of rows [state, action, next, probability]")
     paid = {str(state): _checked(reward, state) for state, reward in rewards.items()}
     if on == "entering" and any(isinstance(reward, Mapping) for reward in paid.values()):
         raise ValueError("rewards: those of actions are earned by taking them; leave out rewards_on")
@@ -196,7 +224,6 @@ def _earned(paid: Mapping[str, Any], state: str, action: str) -> Any:
 
 _FORMS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "gymnasium": gymnasium.read_environment,
-    "P": _read_P,
     "rewards": _read_rewards,
     "transitions": _read_transitions,
 }

@@ -30,7 +30,7 @@ _COLUMNS = {
 }
 _NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spelling in spellings}
 _TRUE, _FALSE = ("1", "true", "yes", "1.0"), ("", "0", "false", "no", "0.0")
-_COMMA = re.compile(r"[+−-]?\d+,\d+")
+_COMMA = re.compile(r"[+−-]?\d+,\d+\s*%?")
 #: What parts the cells of a Markdown table, what sets them off, and the line below its header.
 _BAR, _MARKUP, _RULE = re.compile(r"(?<!\\)\|"), re.compile(r"[`*$\\]"), re.compile(r"\s*:?-+:?\s*")
 

@@ -15,7 +15,7 @@ _ALSO = {
     "problem id": "problem", "id": "problem", "question": "problem", "problem part": "part", "response": "answer",
     "name": "student", "student name": "student", "full name": "student", "student id": "number", "sid": "number",
     "id number": "number", "student number": "number", "matriculation number": "number", "matrikelnummer": "number",
-    "matriculation": "number",
+    "matriculation": "number", "aufgabe": "problem", "teil": "part", "antwort": "answer",
 }  # fmt: skip
 _FIRST = ("first name", "firstname", "given name", "vorname")
 _LAST = ("last name", "lastname", "surname", "family name", "nachname")
@@ -111,6 +111,11 @@ def _names(fields: Sequence[str]) -> list[str]:
     names = [" ".join(re.sub('[_"-]', " ", field).lower().split()) for field in fields]
     there = {None, *names}
     return [_ALSO[name] if _ALSO.get(name) not in there else name for name in names]
+
+
+def meant(name: str) -> str:
+    """What a column or field holds that is called so."""
+    return _names([name])[0]
 
 
 def _numbered(text: str, separator: str, before: int, where: str) -> Iterator[tuple[int, list[str] | str]]:

@@ -58,6 +58,7 @@ def optimal(folder: Path, name: str, content: str | bytes, mdp: str = "", gamma:
     [
         ("car.csv", CAR),
         ("car.tsv", CAR.replace(",", "\t").replace("state\taction", "State\tAction")),
+        ("percent.csv", CAR.replace(",", ";").replace("0.5", "50,00%").replace(";1;", ";100 %;")),
         ("excel.csv", "sep=;\n" + CAR.replace(",", ";").replace("0.5", "0,5")),
         ("other-order.csv", "p,r,s,a,s'\n" + "".join(",".join([*line.split(",")[3:], *line.split(",")[:3]]) + "\n"
                                                      for line in CAR.splitlines()[1:])),

@@ -319,6 +319,21 @@ def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> No
     ]
 
 
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("a.toml", 'name = "Ann"\n"Student ID" = 7\n"td.toml" = 1'),
+        ("a.toml", 'student = "Ann"\nnumber = "7"\n[answers]\n"td.toml" = 1'),
+        ("a.json", '{"Name": "Ann", "Matrikelnummer": 7, "answers": {"td.toml": 1}}'),
+        ("a.jsonl", '{"Student name": "Ann", "sid": 7, "Problem ID": "td.toml", "response": 1}'),
+        ("a.csv", "Name;Matrikelnummer;Aufgabe;Antwort\nAnn;7;td.toml;1\n"),
+    ],
+)
+def test_fields_have_the_names_that_columns_may_have(folder: Path, name: str, content: str) -> None:
+    (entry,) = read_answers(write(folder, name, content)).entries
+    assert (entry.student, entry.number, entry.problem, entry.text) == ("Ann", "7", "td.toml", "1")
+
+
 def test_an_id_may_be_typed_with_or_without_its_revision(folder: Path) -> None:
     (row,) = judged(folder, f'"{NOW}" = {{a = "1"}}')
     assert row.problem == NOW

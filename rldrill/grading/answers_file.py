@@ -15,7 +15,7 @@ from rldrill.files import DATA_SUFFIXES, parse, parse_line, read_text, shown
 from rldrill.grading.places import places
 from rldrill.problems.errors import FileError, NothingToGrade, UsageError
 from rldrill.problems.identity import looks_like_id
-from rldrill.spreadsheet import JOINERS, name_of, table
+from rldrill.spreadsheet import JOINERS, meant, name_of, table
 from rldrill.typed import typed
 
 #: What the names of files of answers end in.
@@ -137,7 +137,7 @@ def read_answers(path: str | Path) -> HandedIn:
 
 
 #: Where a file of one student's answers says whose it is.
-_WHOSE = re.compile(r"""^[\s{]*["']?(?:student|number)["']?\s*[=:]\s*["']?([^"'\n,}]+)""", re.MULTILINE)
+_WHOSE = re.compile(r"""^[\s{]*["']?(?:student|name|number)["']?\s*[=:]\s*["']?([^"'\n,}]+)""", re.MULTILINE)
 
 
 def whose_file(path: str | Path) -> str:
@@ -217,7 +217,8 @@ def _tables(text: str, path: Path) -> Iterator[Row]:
     found = places(text, path)
     if not isinstance(data, dict):
         raise FileError(f"{where}: a file of answers is a table from problem IDs to answers.")
-    student = data.pop("student", None)
+    whose = {key: meant(key) for key, value in data.items() if key == "student" or not isinstance(value, dict | list)}
+    person = {name: data.pop(key) for key, name in whose.items() if name in ("student", "number")}
     above = ("answers",) if "answers" in data else ()
     answers = data.pop("answers", None) if above else data
     if answers is not data and data:
@@ -226,7 +227,7 @@ def _tables(text: str, path: Path) -> Iterator[Row]:
         raise FileError(f"{where}: 'answers' must be a table from problem IDs to answers.")
     for problem, parts in answers.items():
         for part, answer in parts.items() if isinstance(parts, dict) else [("", parts)]:
-            fields = {"student": student, "problem": problem, "part": part, "answer": answer}
+            fields = person | {"problem": problem, "part": part, "answer": answer}
             keys = (*above, problem, part) if isinstance(parts, dict) else (*above, problem)
             line, column = found.get(keys, (None, None))
             yield _row(fields, line, column, path)
@@ -251,6 +252,7 @@ def _object(line: str, path: Path, number: int) -> dict[str, object]:
     here = f"{shown(path)}, line {number}"
     if not isinstance(data, dict):
         raise FileError(f'{here}: a line is an object, as in {{"problem": "td-zero/2/7", "answer": "7/2"}}.')
+    data = {meant(key): value for key, value in data.items()}
     for name in _NEEDED:
         if name not in data:
             raise FileError(f"{here}: the field '{name}' is missing; give it.")

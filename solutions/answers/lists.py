@@ -2,10 +2,11 @@
 
 import re
 from collections.abc import Callable
+from itertools import pairwise
 
 from rldrill.problems.grammar import refuse_comma
 from rldrill.problems.notation import FUNCTIONS
-from rldrill.problems.spelling import Source
+from rldrill.problems.spelling import Source, quoted
 
 _TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?\s*[Tt⊤]\s*\}?|ᵀ|\.T|\.?')$")
 _NOTHING = re.compile(r"[-–—?…]?")
@@ -61,6 +62,8 @@ def entries_of(source: Source, spaced: bool) -> list[Source]:
             lines = source.split("\n")
             alone = [not spaced or line.has("=≈:") for line in lines]
             cut = [[line] if whole else line.split(_gap(line)) for line, whole in zip(lines, alone, strict=True)]
+            if len(lines) == 1:
+                _refuse_product(source, cut[0])
             return filled([piece for pieces in cut for piece in pieces])
         entries = source.split(",")
         _refuse_doubtful(source, entries)
@@ -115,6 +118,16 @@ def _whole(source: Source) -> Source:
     return Source(_MIXED.sub("1", source.text), source.start)
 
 
+def _refuse_product(line: Source, entries: list[Source]) -> None:
+    """Complain about ``1 + 2 gamma``: where spaces stand inside entries, one may also stand in a product."""
+    if not any(" " in entry.text for entry in entries):
+        return
+    for before, after in pairwise(entries):
+        product = f"{before.text.split(' ')[-1]} {after.text.split(' ')[0]}"
+        if re.match(r"\S*[\w)] (?:[^\W\d_]|[(√])", product) and product in line.text:
+            raise after.unreadable(f"{quoted(product)} may be a product or two entries; write * or a comma there.")
+
+
 def _gap(source: Source) -> Callable[[int, str], bool]:
     """Whether a space parts two entries: ``[1 -2]`` are two, ``[1 - 2]`` is one."""
 
@@ -146,8 +159,13 @@ def nested_rows(source: Source) -> list[list[Source]] | None:
     return None
 
 
-def plain_rows(source: Source, *, spaced: bool) -> list[list[Source]]:
-    """The entries of rows that end with a semicolon or a line; ``spaced`` where there must be several."""
+def plain_rows(source: Source, *, spaced: bool, column: int = 0) -> list[list[Source]]:
+    """The entries of rows that end with a semicolon or a line; ``spaced`` where there must be several.
+
+    Of as many rows as a ``column`` is long each is one entry: ``1 2/3; 1 1/3``.
+    """
     body, wrapped = unwrapped(source)
     rows = filled(body.split(";\n"))
+    if len(rows) == column > 1:
+        return [entries_of(row, False) for row in rows]
     return [entries_of(row, spaced or wrapped or len(rows) > 1 or row.has("|")) for row in rows]

@@ -16,6 +16,7 @@ MARKS = "\u0300-\u036f"  # the hat, bar or tilde on a letter
 _RAISED = r"[\^_]\s*\{(?:[^{}]|\{[^{}]*\})*\}|[\^_]\([^()]*\)"
 _OF = re.compile(rf"(?:[^\W\d_](?:{_RAISED}|[\w '^*⊤{MARKS}])*)?[(\[](.*)[)\]]")
 _BELOW = re.compile(rf"[^\W\d_][{MARKS}]?_(?:\{{(.*)\}}|(.*))")  # V_cool
+_NUMBERED = re.compile(r"(?:[^\W\d_]{1,9}\s?|#)_?(\d+)")  # Q1, s1, arm 2, #2, where the name is a number
 _LETTER = re.compile(r"[^\W\d_]['′]*(?:_?\d+)?")  # s, s', s_0
 _INDEX = re.compile(r"(?<=\w)\((\d+)\)|_\{([^{}]*)\}")  # pi(1), s_{1}
 _SPELLED_OUT = str.maketrans({glyph: name for name, glyph in GREEK.items()} | {"π": "pi", "∂": "d"})
@@ -106,7 +107,7 @@ def _candidates(name: str) -> list[str]:
     """A name, and what stands in it where it is a function of that."""
     if len(name) > _LONGEST:
         return [""]
-    found = [match for pattern in (_OF, _BELOW) if (match := pattern.fullmatch(name))]
+    found = [match for pattern in (_OF, _BELOW, _NUMBERED) if (match := pattern.fullmatch(name))]
     return [name, *(next(filter(None, match.groups()), "") for match in found)]
 
 
@@ -163,7 +164,9 @@ def _begins(letter: str, name: str) -> bool:
 def options_named(word: str, allowed: Sequence[str]) -> list[str]:
     """The actions that a word may mean: its name, an arrow or a point of the compass, or its first letter."""
     spellings = [(option, option) for option in allowed]
-    if hits := matches(word, spellings) or matches(word.rstrip("."), spellings):
+    numbered = _NUMBERED.fullmatch(word)
+    alike = (word, word.rstrip("."), *(numbered.groups() if numbered else ()))
+    if hits := next(filter(None, (matches(each, spellings) for each in alike)), []):
         return hits
     typed = unquoted(word).casefold().replace("\ufe0f", "").rstrip(".")
     way = _WAY.get(typed, "")

@@ -210,7 +210,8 @@ def _matrix(
     rows = nested_rows(body)
     plain = rows is None
     if rows is None:
-        rows = plain_rows(body, spaced=shape not in (None, (1, 1)))
+        column = shape[0] if shape and shape[1] == 1 else 0
+        rows = plain_rows(body, spaced=shape not in (None, (1, 1)), column=column)
     if len(rows) > (most := max(_ENTRIES, *shape or (1,))):
         raise source.unreadable(f"More than {most} rows were typed; leave out those that were not asked for.")
     arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
@@ -267,7 +268,7 @@ def read_table(
     found = by_name(source, asked)
     if found is None:
         body = untransposed(_unnamed(source))
-        rows = _number_rows(body, spaced=len(keys) > 1)
+        rows = _number_rows(body, len(keys))
         flat = [entry for row in rows for entry in row]
         found = in_order(rows, source, asked) if len(flat) <= asked.most else None
         if found is None:
@@ -283,13 +284,13 @@ def _place(key: str | tuple[str, str], _: int) -> str:
     return shown(key)
 
 
-def _number_rows(source: Source, *, spaced: bool) -> list[list[Source]]:
-    """The numbers line by line, or by the brackets around each row."""
+def _number_rows(source: Source, count: int) -> list[list[Source]]:
+    """The numbers line by line, or by the brackets around each row; of as many lines as numbers each is one."""
     if rows := nested_rows(source):
         return rows
     body, wrapped = unwrapped(source)
     lines = filled(body.split("\n;" if body.has("\n") or not body.has(",") else "\n"))
-    return [entries_of(line, spaced or wrapped) for line in lines]
+    return [entries_of(line, (count > 1 or wrapped) and len(lines) != count) for line in lines]
 
 
 def read_words(
@@ -431,7 +432,8 @@ def read_yes_no(text: str) -> bool:
     """
     source = clean(text)
     said, *why = _WHY.split(unquoted(source.text).casefold().rstrip(".!"), maxsplit=1)
-    if said in _YES | _NO and not (_YES | _NO) - {said} & set(re.findall(r"\w{2,}", "".join(why))):
+    reason = "".join(why)
+    if said in _YES | _NO and not (_YES | _NO) & {reason.strip(" )"), *re.findall(r"\w{2,}", reason)}:
         return said in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
 

@@ -51,6 +51,7 @@ READ = {
     "=6.8": ("34/5", "6.8"), "≈ 6.8": ("34/5", "6.8"), "approx. 6.8": ("34/5", "6.8"), '"6.8"': ("34/5", "6.8"),
     "‘6.8’": ("34/5", "6.8"), "6.8.": ("34/5", "6.8"), "6.8 (approx)": ("34/5", "6.8"), "6.8 approx.": ("34/5", "6.8"),
     "6.8 (rounded)": ("34/5", "6.8"), "34/5 (exact)": ("34/5", "34/5"), "34/5 exactly": ("34/5", "34/5"),
+    "exactly 6.8": ("34/5", "6.8"),
     # degrees, where an angle is taken
     "cos(60°)": ("1/2", "cos(60*(pi/180))"), "sin 30° + 1": ("3/2", "sin(30*(pi/180)) + 1"),
     "tan(30° + 15 deg)": ("1", "tan(30*(pi/180) + 15*(pi/180))"), r"\cos 60^\circ": ("1/2", "cos(60*(pi/180))"),
@@ -111,6 +112,8 @@ REFUSED = {
     "2.5 // slip": "'slip' is not something",
     "2.5 because γ = 1/2": "'because' is not something",
     "don't know": "'don' is not something",
+    "log10(100)": "log is the natural logarithm here; write ln(…)/ln(10) for that to the base 10.",
+    "log2(8)": "log is the natural logarithm here; write ln(…)/ln(2) for that to the base 2.",
     "e^-1/2": "may be ^(-1/2) or (…^-1)/2",
     "1\\frac34": "may be 1 + 3/4 or 1*3/4",
     "0x10": "'x10' is not something",
@@ -124,6 +127,13 @@ def test_what_may_be_read_in_two_ways_is_refused_with_both(text: str) -> None:
     with pytest.raises(Unreadable) as refused:
         read_number(text)
     assert REFUSED[text] in refused.value.message
+
+
+def test_a_power_may_have_lost_its_place() -> None:
+    with pytest.raises(
+        Unreadable, match=r"'2' follows without a sign; write \* before it if it is a factor, or \^ if it"
+    ):
+        read_number("1 + 3γ2", ["gamma"])
 
 
 def test_x_is_a_parameter_where_the_problem_has_one() -> None:

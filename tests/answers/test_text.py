@@ -251,7 +251,7 @@ REFUSED = {
     "e^2γ": "two ways; write brackets",
     "ln 2/3": "two ways; put it in brackets",
     "ln2/3": "two ways; put it in brackets",
-    "log2(8)": "two ways; put it in brackets",
+    "log2(8)": "log is the natural logarithm here; write ln(…)/ln(2)",
     "√2^2": "two ways; put it in brackets",
     "2/1 3/4": "two ways here; put brackets",
     "1 3/4γ": "two ways here; put brackets",
@@ -367,6 +367,18 @@ def test_vectors_refused(text, length, fragment):
     assert fragment in refusal(read_vector, text, length).message
 
 
+@pytest.mark.parametrize("text", ["1 + 2 gamma", "[1 + 2 (gamma)]", "1 - 2 √2"])
+def test_a_space_in_a_product_is_not_taken_for_one_between_entries(text):
+    assert (
+        "may be a product or two entries; write * or a comma there." in refusal(read_vector, text, 2, ["gamma"]).message
+    )
+
+
+def test_spaces_part_entries_that_are_no_factors():
+    for text in ("1 + 2γ 2", "[1 + 2γ  γ]", "2 γ"):
+        assert len(read_vector(text, 2, ["gamma"])) == 2
+
+
 def test_too_few_numbers_of_a_vector_are_told_which_are_needed():
     assert refusal(read_vector, "1", 2, (), ["x", "y"]).message == "1 number was read, 2 are needed: x, y."
     assert refusal(read_vector, "1, 2, 3", 2, (), ["x", "y"]).message == "3 numbers were read, 2 are needed: x, y."
@@ -435,6 +447,26 @@ def test_a_single_entry_may_be_typed_as_a_number(text):
 )
 def test_matrices_refused(text, shape, fragment):
     assert fragment in refusal(read_matrix, text, shape).message
+
+
+@pytest.mark.parametrize("text", ["1 2/3; 1 1/3", "[1 2/3; 1 1/3]", "1 2/3\n1 1/3", "1 2/3, 1 1/3"])
+def test_mixed_numbers_below_each_other(text):
+    assert [values(row) for row in read_matrix(text, (2, 1))] == [[fmpq(5, 3)], [fmpq(4, 3)]]
+    assert {key: cell.value for key, cell in read_table(text, ["a", "b"]).items()} == {"a": fmpq(5, 3), "b": fmpq(4, 3)}
+
+
+@pytest.mark.parametrize(
+    "text", ["Q1 = 5, Q2 = 6", "arm 1: 5, arm 2: 6", "#2: 6; #1: 5", "s_1: 5\ns_2: 6", "a1 5 a2 6"]
+)
+def test_numbers_as_names_may_have_a_letter_or_word_before_them(text):
+    assert {key: int(cell.value) for key, cell in read_table(text, ["1", "2"]).items()} == {"1": 5, "2": 6}
+    assert refusal(read_table, text, ["x", "y"])
+
+
+@pytest.mark.parametrize("text", ["arm 2", "Arm 2", "a2", "a_2", "#2", "2"])
+def test_an_action_that_is_a_number_may_have_a_letter_or_word_before_it(text):
+    assert read_words(text, ["next"], {"next": ("1", "2")}) == {"next": ("2",)}
+    assert "is not one of 1, 3" in refusal(read_words, text, ["next"], {"next": ("1", "3")}).message
 
 
 @pytest.mark.parametrize("text", ["[1, ?; 3, 4]", "[[1, …], [3, 4]]", "1 ?\n3 4", "1/2 [2 -; 6 8]"])
@@ -688,7 +720,9 @@ def test_yes_or_no_may_have_its_reason(why: str) -> None:
     assert not read_yes_no(f"No{why}")
 
 
-@pytest.mark.parametrize("text", ["yes, no", "no, yes it is", "yes (or no)", "yes and no", "no idea", "y/n", "not, as"])
+@pytest.mark.parametrize(
+    "text", ["yes, no", "y, n", "yes (n)", "no, yes it is", "yes (or no)", "yes and no", "no idea", "y/n", "not, as"]
+)
 def test_what_is_no_plain_yes_or_no(text: str) -> None:
     assert "is neither yes nor no; type one of them." in refusal(read_yes_no, text).message
 

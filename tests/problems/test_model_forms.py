@@ -1,8 +1,10 @@
 """Models in other forms than a list of transitions: grids drawn as text, and Gymnasium's tables."""
 
+import re
 from typing import Any
 
 import pytest
+from flint import fmpq
 from pydantic import ValidationError
 
 from asking import solved
@@ -10,8 +12,10 @@ from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 from rldrill.problems.gymnasium import from_table
-from rldrill.problems.model_forms import SCHEMAS
+from rldrill.problems.model_forms import SCHEMAS, read_form
 from rldrill.problems.models import Model, sums_to_one, transitions_table
+
+SQUARE = "took P for P[action][state][next], as pymdptoolbox has it"
 
 # The 4×3 world of Russell & Norvig, AIMA, section 17.1: moves succeed with 0.8 and slip to either side with 0.1.
 AIMA = {"grid": "...G\n.#.P\n....", "rewards": {"G": 1, "P": -1}, "step": "-0.04", "slip": "0.2"}
@@ -232,3 +236,42 @@ def test_a_grid_may_be_drawn_with_blanks_or_bars_between_its_cells(drawn: str) -
     # r1c1 is three moves from r2c3: right, right, down
     given = {"mdp": {"grid": drawn, "step": -1, "ends": ["G"]}, "gamma": 1}
     assert solved("optimal-value", **given)["a"] == {"r1c1": -3, "r1c2": -2, "r1c3": -1, "r2c1": -4}
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "s\ta\ts'\tprob\tr\nA\tgo\tB\t50%\t1\nA\tgo\tend\t0,5\t-1\nB\tgo\tend\t1\t2\n",
+        "\nstate,action,next,p,reward\nA,go,B,1/2,1\nA,go,end,1/2,-1\nB,go,end,1,2\n",
+        "|s|a|s'|p|r|\n|--|--|--|--|--|\n|A|go|B|1/2|1|\n|A|go|end|1/2|-1|\n|B|go|end|1|2|",
+        [
+            {"s": "A", "a": "go", "s'": "B", "p": 0.5, "r": 1},
+            {"s": "A", "a": "go", "s'": "end", "p": 0.5, "r": -1},
+            {"s": "B", "a": "go", "s'": "end", "p": 1, "r": 2},
+        ],
+    ],
+)
+def test_transitions_may_be_a_table_that_is_pasted(written: object) -> None:
+    # B: 2; A: (1 + 9/10·2)/2 − 1/2 = 9/10
+    given = {"mdp": {"transitions": written, "terminal": ["end"]}, "gamma": "9/10"}
+    assert solved("optimal-value", **given)["a"] == {"A": fmpq(9, 10), "B": 2}
+
+
+@pytest.mark.parametrize(
+    ("written", "says"),
+    [
+        ("A go B 1 1\nB go A 1 1", "transitions: the column 'A go B 1 1' is not known; call the columns state, action"),
+        ("s,a,s',r\nA,go,B\n", "transitions: line 2 has 3 entries, the header has 4; make them equal"),
+        ([{"s": "A", "a": "go", "r": 1}], "transitions: the column 'next' is missing"),
+    ],
+)
+def test_a_pasted_table_that_does_not_fit(written: object, says: str) -> None:
+    with pytest.raises(ValidationError, match=re.escape(says)):
+        Model.model_validate({"transitions": written})
+
+
+@pytest.mark.parametrize(("P", "told"), [([[[1, 0], [0, 1]]], []), ([[[1, 0], [0, 1]], [[0, 1], [1, 0]]], [SQUARE])])
+def test_it_is_told_how_arrays_are_read_whose_order_cannot_be_seen(P: object, told: list[str]) -> None:
+    notes: list[str] = []
+    read_form({"P": P, "R": [0, 1]}, notes.append)
+    assert notes == told
