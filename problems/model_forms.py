@@ -7,9 +7,8 @@ from rldrill.problems import arrays, gymnasium
 from rldrill.problems.exact import read_scalar
 from rldrill.problems.grids import read_grid
 from rldrill.problems.readings import Note
+from rldrill.problems.transition_tables import ALONE, read_markdown_table, read_records, read_transition_table
 
-#: The one action of a process without actions.
-ALONE = "step"
 _ROW = "[state, action, next, probability, reward]"
 
 _REWARDS_SCHEMA = {
@@ -137,14 +136,10 @@ def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _read_table(rows: Any) -> dict[str, Any]:
-    from rldrill.problems import transition_tables
-
     try:
         if not isinstance(rows, str):
-            return transition_tables.read_records(rows)
-        if rows.lstrip().startswith("|"):
-            return transition_tables.read_markdown_table(rows)
-        return transition_tables.read_transition_table(rows.strip("\n"))
+            return read_records(rows)
+        return read_markdown_table(rows) if rows.lstrip().startswith("|") else read_transition_table(rows.strip("\n"))
     except ValueError as error:
         raise ValueError(f"transitions: {error}") from None
 

@@ -31,12 +31,13 @@ from rldrill.problems.exact import (
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
-from rldrill.problems.model_forms import ALONE, SCHEMAS, read_form
+from rldrill.problems.model_forms import SCHEMAS, read_form
 from rldrill.problems.names import read_name
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
 from rldrill.problems.readings import Note, distribution, note_of, told
 from rldrill.problems.recurrence import end_components
+from rldrill.problems.transition_tables import ALONE
 
 Chance = TypeVar("Chance")
 

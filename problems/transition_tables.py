@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from itertools import dropwhile, takewhile
 from typing import Any
 
-from rldrill.problems.model_forms import ALONE
-
+#: The one action of a process without actions.
+ALONE = "step"
 #: What a column may be called, in small letters without blanks and underscores.
 _COLUMNS = {
     "state": ("state", "s", "from", "fromstate", "currentstate", "source", "start"),

@@ -9,7 +9,6 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
@@ -23,6 +22,7 @@ from rldrill.problems.models import (
 from rldrill.problems.parts import Number, Part, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
+from rldrill.problems.transition_tables import ALONE
 from rldrill.problems.valued import (
     UNITS,
     RewardSought,

@@ -9,7 +9,6 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
@@ -24,6 +23,7 @@ from rldrill.problems.models import (
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_roaming, draw_setting
+from rldrill.problems.transition_tables import ALONE
 from rldrill.problems.valued import draw_mixed, draw_values, draw_worth
 
 TITLE = "Value of a policy"

@@ -7,7 +7,6 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, dot
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
@@ -22,6 +21,7 @@ from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting, draw_targets
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted, in_place
+from rldrill.problems.transition_tables import ALONE
 from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Iterative policy evaluation"

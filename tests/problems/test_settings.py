@@ -9,8 +9,8 @@ import pytest
 from rldrill.exercise import draw
 from rldrill.problems.catalogue import selection
 from rldrill.problems.draws import Draws
-from rldrill.problems.model_forms import ALONE
 from rldrill.problems.settings import Setting, draw_moves, draw_visits, draw_way, in_order, maps, possible, settings
+from rldrill.problems.transition_tables import ALONE
 
 #: An action that is none: what happens without one.
 UNNAMED = ""
