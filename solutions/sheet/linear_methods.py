@@ -203,7 +203,7 @@ with evaluate(False):
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="At the last time no action is worth its price, so the value is the reward of the state alone.",
         misread={
-            NO_TERMINAL: Qt(T) - Qt(T),
+            NO_TERMINAL: Mul(0, Qt(T)),
         },
     )
     LOOP_WITHOUT_R = Misconception(
@@ -302,7 +302,7 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 LQR_TERMINAL,
                 left=value(T),
                 right=Qt(T) if notation.costs else -Qt(T),
-                misread={ended: Qt(T) - Qt(T)},
+                misread={ended: Mul(0, Qt(T))},
             ),
             replace(
                 LQR_GAIN,

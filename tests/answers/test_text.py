@@ -802,6 +802,7 @@ HOSTILE = [
 def test_hostile_texts_take_no_time(text):
     read_number("sqrt(2) + exp(γ) + sin(1)", ["gamma"])
     for read in READERS:
+        complaint(read, "a: 1, 2")  # what is imported for it is there now
         with at_once():
             unreadable = complaint(read, text)
         assert unreadable is None or len(unreadable.message) < 300

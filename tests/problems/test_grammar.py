@@ -235,6 +235,7 @@ HOSTILE = ["9**9**9", "9^9^9^9", "(" * 10**5, "9" * 10**6, "-" * 250, "2^" * 149
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
 @pytest.mark.parametrize("reader", [as_dynamics, read_fraction])
 def test_hostile_texts_in_files_take_no_time(reader: Callable[[str], object], text: str) -> None:
+    reader("1")  # what is imported for it is there now
     with at_once(), pytest.raises(ValueError, match=r".") as refused:
         reader(text)
     assert len(str(refused.value)) < 300
