@@ -40,3 +40,11 @@ def test_an_action_without_a_price_is_charged_what_it_leads_to() -> None:
     regulator = of_one(3, 2, 0)
     S = stationary(regulator)
     assert (S[0, 0], regulator.gain(S)[0, 0]) == (2, 3)
+
+
+def test_a_cost_of_state_and_action_together_counts_in_the_gain_and_in_what_is_left() -> None:
+    # q = 2, n = r = 1, S = 1: L = (1 + 1)/(1 + 1) = 1 brings the state to 0 at once; q + S − (S + n)L = 2 + 1 − 2 = 1.
+    regulator = of_one(1, 2, 1)._replace(N=matrix([[fmpq(1)]]))
+    S = stationary(regulator)
+    assert abs(S[0, 0] - 1) < fmpq(1, 10**40)
+    assert (regulator.gain(matrix([[ONE]]))[0, 0], regulator.before(matrix([[ONE]]))[0, 0]) == (1, 1)
