@@ -35,7 +35,7 @@ class Compact(Struct, frozen=True):
     """
 
     blocks: tuple[Block, ...]
-    besides: int = 0
+    besides: int
     room: int | None = None
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:

@@ -35,6 +35,13 @@ SAMPLE = {
     }],
 }  # fmt: skip
 
+
+def tie(reward: int) -> dict[str, Any]:
+    """Staying earns that, going on nothing and 1 a step later: V₁ is 1 far on, and both are worth as much if γ·1 is."""
+    rows = [["start", "stay", "end", 1, reward], ["start", "go", "far", 1, 0], ["far", "go", "end", 1, 1]]
+    return {"mdp": {"transitions": rows}, "sweeps": 1, "gamma": "gamma", "tie": "start"}
+
+
 BROUGHT: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     # sick 1/10·9/10 = 9/100, healthy 9/10·1/5 = 18/100: one to two; by readings, those under 'sick' would sum to 11/10
     "a sensor by hypothesis whose readings have the names of the hypotheses": (
@@ -97,6 +104,11 @@ BROUGHT: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
             "b": {"a": {"l": Fraction(26, 5)}, "b": {"r": Fraction(31, 5)}},
         },
     ),
+    "a tie without a discount": (
+        "value-iteration",
+        tie(1),
+        {"a": {"start": Fraction(1), "far": Fraction(1)}, "b": Fraction(1), "c": "A"},
+    ),
     "one sample without a range": ("ppo-clip", SAMPLE, {"a": Fraction(1, 2), "b": Fraction(0), "c": Fraction(2)}),
 }
 
@@ -118,6 +130,7 @@ def test_what_is_brought_has_the_answers_worked_by_hand(brought: str) -> None:
          "some action costs nothing"),
         ("lqr-infinite", {"A": [[2, 1], [0, 3]], "B": [[0], [0]], "Q": [[1, 0], [0, 1]], "R": [[1]]},
          "no action keeps the system from running away"),
+        ("value-iteration", tie(2), "with no discount from 0 to 1 are both actions in 'start' greedy"),
     ],
 )  # fmt: skip
 def test_what_has_no_answer_is_refused_with_the_reason(family: str, given: dict[str, Any], says: str) -> None:
