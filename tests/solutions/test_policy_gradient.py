@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import rldrill
 from asking import rounded, solved
 from rldrill.problems.catalogue import family
+from rldrill.problems.document import Paragraph
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Logarithm, read_weight, shown
 from rldrill.solutions.exact import exact, simplest
@@ -416,3 +417,14 @@ def test_of_two_values_one_is_the_greater_of_three_the_greatest() -> None:
                 rows = getattr(given_, "actions", None) or next(iter(given_.features.values()))  # type: ignore[attr-defined]
                 assert ("has the greatest value" in working) <= (len(rows) > 2), exercise.id
                 assert ("has the greater value" in working) <= (len(rows) == 2), exercise.id
+
+
+@pytest.mark.parametrize(
+    ("new", "said"),
+    [("2/5", "stays as it is"), ("3/5", "stays as it is"), ("61/100", "lies above"), ("39/100", "lies below")],
+)
+def test_a_ratio_on_the_border_is_not_clipped(new: str, said: str) -> None:
+    # old 1/2 and ε = 1/5: the borders 4/5 and 6/5 are the ratios of 2/5 and 3/5
+    sample = {"state": "rock", "action": "drift", "old": "1/2", "new": new, "advantage": 4}
+    exercise = rldrill.read({"family": "ppo-clip", "given": {"samples": [sample], "epsilon": "1/5"}})
+    assert any(said in block.text for block in exercise.working("b") if isinstance(block, Paragraph))
