@@ -27,7 +27,7 @@ _DIGITS = 12
 
 
 class _Range(Struct, frozen=True):
-    """Where a number must lie, between these two or on them; above 0 and below 1 they are not reached."""
+    """Between which numbers another one must lie; the signs say whether it may be one of them."""
 
     low: Decimal = Decimal(0)
     high: Decimal = Decimal(1)
