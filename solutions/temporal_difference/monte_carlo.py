@@ -103,7 +103,7 @@ def _last(given: Given) -> list[int]:
 )
 def last_visit(given: Given, work: Work) -> None:
     """The return of the last visit for that of the first."""
-    _finish(given, work, _returns(given, work), last=True)
+    _finish(given, work, _returns(given, work), last=given.visits == "first")
 
 
 @slip(
