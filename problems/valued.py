@@ -34,11 +34,12 @@ _ROUNDING = Fraction(1, 100)
 
 
 class Valued(NamedTuple):
-    """A model, a policy of it, and the policy's values."""
+    """A model, a policy of it, the policy's values, and what every action is worth with these values after it."""
 
     mdp: Model
     policy: dict[str, str]
     values: dict[str, Fraction]
+    worths: dict[tuple[str, str], Fraction]
 
 
 class Mixed(NamedTuple):
@@ -80,7 +81,7 @@ def draw_valued(
             worths[state, action] = value + (0 if action == policy[state] else next(better))
     own = [(policy[state] == action) for state, action in worths]
     sure = [pair for pair, mine in zip(worths, own, strict=True) if forked == ("others" if mine else "own")]
-    return Valued(draw_worth(rng, setting, shape, gamma, values, worths, sure), policy, values)
+    return Valued(draw_worth(rng, setting, shape, gamma, values, worths, sure), policy, values, worths)
 
 
 def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, denominators: tuple[int, ...]) -> Mixed:
@@ -199,6 +200,8 @@ def draw_averaging(
 def averaging(rng: Draws, shares: tuple[int, ...], total: int | Fraction) -> list[int] | None:
     """Different whole numbers that make up a total, each taken as often as its share says, as far as some are found."""
     first, *others = shares
+    if not others:
+        return None if total % first else [int(total // first)]
     near = total // sum(shares) - 4
     for _ in range(_ATTEMPTS):
         rest = [near + rng.below(9) for _ in others]

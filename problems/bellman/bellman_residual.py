@@ -109,7 +109,7 @@ def draw(level: int, rng: Draws) -> Claimed | Sought:
     shape = Shape(states=2, actions=level, branches=2, denominators=(2,))
     policy: PolicyField | None = None
     if optimal:
-        mdp, _, values = draw_valued(rng, setting, shape, gamma, (-4, -1), forked="own")
+        mdp, _, values, _ = draw_valued(rng, setting, shape, gamma, (-4, -1), forked="own")
     elif level == 2:
         mdp, policy, values = draw_mixed(rng, setting, shape, gamma, (2, 4))
     else:
@@ -134,7 +134,7 @@ def _draw_sought(rng: Draws) -> Sought:
     """Optimal values and a reward that they hang on; the number for it makes another action best, twice in three."""
     gamma, states = rng.fraction("1/2", "2/3", "4/5"), 2 + rng.below(2)
     shape = Shape(states=states, actions=5 - states, branches=2, denominators=(2,))
-    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
+    mdp, policy, values, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
     state = rng.choice(mdp.states)
     row = rng.choice(mdp.outcomes[state, policy[state]])
     right = Fraction(row.reward)

@@ -91,7 +91,7 @@ def draw(level: int, rng: Draws) -> Optimal | Sought:
     gamma = rng.fraction("1/2", "2/3")
     if level == 3:
         shape = Shape(states=2, actions=3, branches=2, denominators=(2,))
-        mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1), forked="own")
+        mdp, policy, values, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1), forked="own")
         for known, other in permutations(rng.shuffled(mdp.states)):
             ways = [row.action for row in mdp.transitions if (row.state, row.next) == (known, other)]
             if policy[known] in ways and len(ways) > 1:
@@ -102,9 +102,9 @@ def draw(level: int, rng: Draws) -> Optimal | Sought:
         given = Sought(mdp=opened(mdp, asked), gamma=gamma, optimum={known: values[known]})
         return given if _is_telling(given) else draw(level, rng)
     shape = Shape(states=2, actions=2, branches=level, denominators=(2,))
-    mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
+    mdp, policy, *_ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
     while level == 1 and of_two_steps(mdp, gamma) != policy:
-        mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
+        mdp, policy, *_ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
     return Optimal(mdp=mdp, gamma=gamma)
 
 

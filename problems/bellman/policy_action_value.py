@@ -25,7 +25,7 @@ def draw(level: int, rng: Draws) -> Given:
     setting = draw_setting(rng)
     gamma = rng.fraction("1/2", "2/3") if level == 1 else rng.fraction("1/2", "2/3", "4/5")
     if level == 1:
-        mdp, chosen, _ = draw_valued(rng, setting, Shape(states=2, actions=2, branches=1), gamma, (-4, 4))
+        mdp, chosen, *_ = draw_valued(rng, setting, Shape(states=2, actions=2, branches=1), gamma, (-4, 4))
         return Given(mdp=mdp, policy=deterministic(chosen), gamma=gamma)
     if level == 2:
         mixed = draw_mixed(rng, setting, Shape(states=2, actions=2, branches=2, denominators=(2,)), gamma, (2, 4))

@@ -53,7 +53,7 @@ def draw(level: int, rng: Draws) -> Given:
     actions = 3 if states == 2 else 2
     shape = Shape(states=states, actions=actions, branches=min(level, 2), denominators=(2,))
     forked: Literal["all", "others"] = "others" if level == 2 else "all"
-    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-6, -1), forked=forked)
+    mdp, policy, values, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-6, -1), forked=forked)
     if level == 1 and not _looks_ahead(mdp, policy, values):
         return draw(level, rng)
     missing = None

@@ -61,9 +61,9 @@ def draw(level: int, rng: Draws) -> Given:
     others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 2 else Fraction(2, 5)) else (-4, 4)
     forked: Literal["own", "others"] = "own" if level == 3 else "others"
     setting = draw_setting(rng)
-    mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
+    mdp, policy, values, _ = draw_valued(rng, setting, shape, gamma, others, forked=forked)
     while level == 1 and not _varied(mdp, policy, values, gamma):
-        mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
+        mdp, policy, values, _ = draw_valued(rng, setting, shape, gamma, others, forked=forked)
     return Given(
         mdp=mdp,
         policy=deterministic(policy),

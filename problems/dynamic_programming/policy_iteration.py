@@ -17,6 +17,7 @@ from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import (
     UNITS,
     RewardSought,
+    Valued,
     choices_table,
     deterministic,
     draw_valued,
@@ -30,6 +31,9 @@ from rldrill.problems.valued import (
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
 REVISION = 7
+
+#: What each action is worth.
+Worths = dict[tuple[str, str], Fraction]
 
 #: How far above its bound the reward is that policy iteration goes on with.
 _ABOVE = tuple(range(1, 13))
@@ -107,40 +111,46 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
     optimal = rng.chance(Fraction(1, 2))
     others = {1: (-4, -1), 2: (-2, 2)}[level] if optimal else (-1, 3)  # what is better than the policy's own
     while True:
-        mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
-        if _looks_ahead(mdp, values, gamma) and _settles(mdp, policy, gamma, level) == optimal:
-            return Rounds(mdp=mdp, start=policy, gamma=gamma, rounds=level)
+        drawn = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
+        if _looks_ahead(drawn, gamma) and _settles(drawn, gamma, level) == optimal:
+            return Rounds(mdp=drawn.mdp, start=drawn.policy, gamma=gamma, rounds=level)
 
 
 def _improvements(
-    mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int
-) -> Iterator[tuple[dict[str, str], dict[tuple[str, str], Fraction], dict[str, str]]]:
-    """For every round the policy, what each action is worth with its values, and the policy that improvement gives."""
+    mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int, ahead: Worths | None = None
+) -> Iterator[tuple[dict[str, str], Worths, dict[str, str]]]:
+    """For every round the policy, what each action is worth with its values, and the policy that improvement gives.
+
+    What the actions are worth with the first policy's values may be known.
+    """
     policy = dict(start)
     for _ in range(rounds):
-        values = policy_values(mdp, deterministic(policy), gamma)
-        ahead = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs}
+        if ahead is None:
+            values = policy_values(mdp, deterministic(policy), gamma)
+            ahead = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs}
         ranks = {pair: (found, policy[pair[0]] == pair[1]) for pair, found in ahead.items()}
         better = {s: max(((s, a) for a in actions), key=ranks.__getitem__)[1] for s, actions in mdp.actions.items()}
         yield policy, ahead, better
-        policy = better
+        policy, ahead = better, ahead if better == policy else None
 
 
-def _settles(mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int) -> bool:
+def _settles(drawn: Valued, gamma: Fraction, rounds: int) -> bool:
     """Whether the last of so many rounds changes nothing: the policy that it evaluates is an optimal one."""
-    *_, (before, _, after) = _improvements(mdp, start, gamma, rounds)
+    *_, (before, _, after) = _improvements(drawn.mdp, drawn.policy, gamma, rounds, drawn.worths)
     return before == after
 
 
-def _looks_ahead(mdp: Model, values: dict[str, Fraction], gamma: Fraction) -> bool:
+def _looks_ahead(drawn: Valued, gamma: Fraction) -> bool:
     """Whether neither rewards alone, nor next values alone, nor both without γ show which policy improvement gives."""
-    at_once = {pair: worth(mdp, pair, {}, gamma) for pair in mdp.pairs}
-    later = {pair: _afterwards(mdp, pair, values) for pair in mdp.pairs}
-    ahead = {pair: at_once[pair] + gamma * later[pair] for pair in mdp.pairs}
-    together = {pair: at_once[pair] + later[pair] for pair in mdp.pairs}
+    at_once = {
+        pair: sum(Fraction(row.probability) * Fraction(row.reward) for row in rows)
+        for pair, rows in drawn.mdp.outcomes.items()
+    }
+    later = {pair: worth - at_once[pair] for pair, worth in drawn.worths.items()}
+    together = {pair: at_once[pair] + later[pair] / gamma for pair in later}
     best, *others = (
-        [max(actions, key=lambda action: found[state, action]) for state, actions in mdp.actions.items()]
-        for found in (ahead, at_once, later, together)
+        [max(actions, key=lambda action: found[state, action]) for state, actions in drawn.mdp.actions.items()]
+        for found in (drawn.worths, at_once, later, together)
     )
     return best not in others
 
@@ -149,13 +159,13 @@ def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
     """An optimal policy, and a reward that makes it worse than another one, which has readable values, too."""
     states = 2 + rng.below(2)
     shape = Shape(states=states, actions=5 - states, branches=2, denominators=(2,))
-    mdp, start, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
+    mdp, start, values, worths = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
     pair = rng.choice([(state, action) for state, action in mdp.pairs if action != start[state]])
     row = rng.choice(mdp.outcomes[pair])
     if not _needs_values(mdp, pair, start[pair[0]], values):
         return _draw_threshold(gamma, rng)
     unpaid = opened(mdp, row)
-    bound = Fraction(row.reward) + (values[pair[0]] - worth(mdp, pair, values, gamma)) / Fraction(row.probability)
+    bound = Fraction(row.reward) + (values[pair[0]] - worths[pair]) / Fraction(row.probability)
     if bound in {0, *(each.reward for each in mdp.transitions)}:  # it could be read off the table
         return _draw_threshold(gamma, rng)
     for above in rng.shuffled(_ABOVE):
