@@ -41,6 +41,8 @@ def test_a_problem_file_is_no_blueprint() -> None:
     [
         ('titel = "x"', "line 1: 'titel' is not a field of a blueprint (did you mean title?)."),
         ('\n\nlanguage = "fr"', "line 3: language: 'fr' is not possible here; write 'en' or 'de'."),
+        ("title = {a = 1}", "line 1: title: must be a text; put it in quotes."),
+        ("problems = 3", "line 1: problems: must be a list; a single entry, too, stands in brackets: [3]."),
         ('notation = "ms"', "line 1: notation: there is no notation 'ms'; there are lecture, sutton-barto, control."),
         ("versions = true", "line 1: versions: true is not a whole number; write one, such as 3."),
         ("[[problems]]\nfamily = 'return'\nlevle = 2", "line 3: 'levle' is not a field of [[problems]] (did you mean"),

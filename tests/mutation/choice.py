@@ -52,13 +52,14 @@ class Choice:
             if path.parts[:2] not in {("rldrill", "problems"), ("rldrill", "solutions")}
         }
 
-    def tests(self, source: Source, mutation: Mutation) -> tuple[str, ...]:
+    def tests(self, source: Source, mutation: Mutation, *, far: bool = False) -> tuple[str, ...]:
         """The IDs of what can notice it, the likeliest first: by their ranks, then the first cases of all functions.
 
         For what writes pages, the pages of all families come first: most of it shows in none of their names. Where it
         is known which tests run the changed statement, there are no others but those that start other programs, and
         those come first of all that run rare lines of the same function. Of what other modules alone use, those come
-        first that run rare lines of these.
+        first that run rare lines of these. Those that are seen not to run the statement come last, if they are wanted
+        at all: they may rest on it nevertheless, where another test has left what it gives in a cache.
         """
         order: Counter[tuple[int, str]] = Counter()
         keyed = []
@@ -70,10 +71,11 @@ class Choice:
             rare = self.covering.elsewhere(source, mutation, importing)
         ranks = zip(self._ranks(source, mutation), self.ids, strict=True)
         for rank, test in [each for each in ranks if each[0] < _NOT or each[1] in running | rare]:
-            if running and self._is_far(test, running):
+            is_far = bool(running) and self._is_far(test, running)
+            if is_far and not far:
                 continue
-            function = test.partition("[")[0]
-            keyed.append((test not in rare, rank, self._is_dear(test.partition("::")[0]), order[rank, function], test))
+            function, is_dear = test.partition("[")[0], self._is_dear(test.partition("::")[0])
+            keyed.append((is_far, test not in rare, rank, is_dear, order[rank, function], test))
             order[rank, function] += 1
         keyed.sort(key=lambda each: each[:-1])
         return tuple(test for *_, test in keyed[:MOST])

@@ -134,11 +134,14 @@ def tried(
     again = []
     for number, outcome in outcomes(places, runs, copies, options.timeout):
         _tell(outcome)
-        if outcome.outcome == "survived" and outcome.tests_run < len(runs[number].tests) and options.patience:
+        if outcome.outcome == "survived" and options.patience:
             again.append(number)
         else:
             yield outcome
-    longer = [replace(runs[number], budget=options.patience) for number in again]
+    longer = [
+        replace(runs[number], tests=choice.tests(*places[number], far=True), budget=options.patience)
+        for number in again
+    ]
     for _, outcome in outcomes([places[number] for number in again], longer, copies, options.patience * 2):
         _tell(outcome)
         yield outcome

@@ -129,6 +129,7 @@ def test_only_tests_that_run_the_statement_come_into_question_where_they_are_kno
     constant, product = mutations(source)
     assert choice.tests(source, product) == (ids[0], ids[2])
     assert choice.tests(source, constant) == (ids[0], ids[2])  # the constant is used in the statement
+    assert choice.tests(source, product, far=True) == (ids[0], ids[2], ids[1])
     (tmp_path / "rldrill" / "tax.py").write_text("RATE = 3\n")
     assert choice.tests(Source.read(tmp_path, "rldrill/tax.py"), constant) == ids[:2]  # who uses it is not known
 

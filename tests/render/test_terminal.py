@@ -54,6 +54,12 @@ def test_a_word_that_is_too_long_is_not_broken() -> None:
     assert wrapped(f"{name[:20]}-{name[:20]}", 40) == [f"{name[:20]}-{name[:20]}"]
 
 
+def test_a_document_that_is_written_as_text_is_a_hundred_signs_wide() -> None:
+    text = "a" * 49 + " " + "b" * 50
+    assert plain((Paragraph(text),)) == text
+    assert plain((Paragraph(text + "b"),)).splitlines() == ["a" * 49, "b" * 51]
+
+
 def test_brackets_and_colons_of_a_text_are_no_commands(capsys: pytest.CaptureFixture[str]) -> None:
     text = "[bold] [red]states[/red] :warning: 12"
     assert plain((Paragraph(text),)) == text
