@@ -231,6 +231,14 @@ def test_a_list_in_the_opposite_order_is_named() -> None:
     assert diagnosis.sentence == "It looks as if the answers are given in the opposite order."
 
 
+def test_of_three_the_opposite_order_is_an_exchange_of_two() -> None:
+    # R₂ = 8, R₁ = 2 + 4 = 6, R₀ = 1/2 + 3 = 7/2
+    exercise = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": ["1/2", 2, 8]}})
+    diagnosis = exercise.diagnose("8, 6, 7/2")
+    assert diagnosis.kind == "exchanged-cells"
+    assert "opposite" not in diagnosis.sentence
+
+
 def test_a_mistake_that_cannot_be_made_is_not_told() -> None:
     # γ = 1: the ratio is (1/2)/(1/4) · (1/2)/(1/4) = 4, the return 3 + 5 = 8. Without r₁ it is 5, and so it is with γ·i
     # for γⁱ; but nobody multiplies by i where there is no discount.
