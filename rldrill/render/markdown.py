@@ -9,6 +9,10 @@ from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.latex import latex
 from rldrill.render.unicode import unicode_text
 
+#: What Markdown would take for its own within mathematics, which GitHub reads after it.
+_TAKEN = re.compile(r"(?<=[^\w\s])_(?!\s)|\\[{}]|[*|]")
+#: The same to LaTeX; an underscore before room begins no emphasis.
+_SPARED = {"_": "_ ", r"\{": r"\lbrace ", r"\}": r"\rbrace ", "*": r"\ast ", "|": r"\vert "}
 _SPECIAL = re.compile(r"([\\`*_\[\]<$#|])")
 
 
@@ -41,7 +45,7 @@ def _block(block: Block, drawn: Callable[[Picture], str]) -> str:
             lines = [header, ("---",) * len(header), *rows]
             return "\n".join(f"| {' | '.join(map(markdown_text, line))} |" for line in lines)
         case Equation():
-            return f"$${latex_block_equation(block)}$$"
+            return f"$${_spared(latex_block_equation(block))}$$"
         case Beside(blocks):
             return markdown(blocks, drawn)
         case Picture():
@@ -61,7 +65,12 @@ def markdown_plain(text: str) -> str:
 
 
 def _math(math: Math) -> str:
-    return f"${latex(math)}$".replace("|", r"\vert ")
+    return f"${_spared(latex(math))}$"
+
+
+def _spared(written: str) -> str:
+    """LaTeX in which Markdown finds nothing of its own: neither emphasis, nor escaped signs, nor the end of a cell."""
+    return _TAKEN.sub(lambda taken: _SPARED[taken[0]], written)
 
 
 def latex_block_equation(equation: Equation) -> str:

@@ -29,7 +29,7 @@ _COMMANDS = {
     "−": "-", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "←": r"\leftarrow", "→": r"\to",
     "∈": r"\in", "…": r"\dots", "|": r"\mid", ":": r"\colon", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum",
     "Π": r"\prod", "∫": r"\int",
-    "max": r"\max", "min": r"\min", "arg max": r"\operatorname*{arg\,max}", "ln": r"\ln", "exp": r"\exp",
+    "max": r"\max", "min": r"\min", "arg max": r"\mathop{\text{arg max}}", "ln": r"\ln", "exp": r"\exp",
     "log": r"\log", "sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "∂": r"\partial", "Δ": r"\Delta", "ω": r"\omega",
     "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
 }  # fmt: skip
@@ -95,7 +95,7 @@ def latex(math: Math) -> str:
             room = " " if left in _COMMANDS else ""
             return f"{_bracket(left)}{room}{latex(body)}{room}{_bracket(right)}"
         case Big(sign, below, above):
-            base = _COMMANDS.get(sign, rf"\operatorname*{{{sign}}}")
+            base = _COMMANDS.get(sign, rf"\mathop{{\text{{{sign}}}}}")  # GitHub has no \operatorname
             return base + _scripts(_optional(below), _optional(above))
         case Root(body):
             return rf"\sqrt{{{latex(body)}}}"
