@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import PARAMETERS, Exact, Parameter, shown
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open
@@ -110,7 +110,7 @@ def draw_rates(rng: Draws) -> Rates:
     alpha, gamma, unit = rng.choice(
         (("1/4", "1/2", 4), ("1/2", "1/4", 4), ("1/2", "3/4", 4), ("1/2", "4/5", 5), ("1/2", "2/5", 5))
     )
-    return Rates(Fraction(alpha), Fraction(gamma), unit)
+    return Rates(fraction_of(alpha), fraction_of(gamma), unit)
 
 
 def readable(
@@ -188,7 +188,7 @@ def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: st
     named, (action,) = draw_moves(rng, setting, (("a", "bc"[:steps]),), actions)
     state, *others = (named[letter] for letter in "abc"[: steps + 1])
     alpha = rng.fraction("1/2", "1/4", "3/4", "1/5", "2/5", "3/5")
-    gamma = rng.fraction(*(each for each in ("1/2", "1/4", "3/4", "1/5", "2/5", "4/5") if Fraction(each) != alpha))
+    gamma = rng.fraction(*(each for each in ("1/2", "1/4", "3/4", "1/5", "2/5", "4/5") if fraction_of(each) != alpha))
     rows = draw_rows(rng, [name for name in setting.states if name in (state, *others)], actions, gamma.denominator)
     following = [rng.choice([name for name in actions if rows[other][name] < max(rows[other].values())])
                  for other in others]  # fmt: skip

@@ -7,14 +7,14 @@ from functools import lru_cache
 from operator import sub
 from typing import TypeVar
 
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 
 Item = TypeVar("Item")
 
 
 #: The same numbers are drawn over and over, and making a Fraction takes longer than drawing it.
 _whole: Callable[[int], Fraction] = lru_cache(maxsize=2048)(Fraction)
-_read: Callable[[str], Fraction] = lru_cache(maxsize=2048)(Fraction)
+_read: Callable[[str], Fraction] = lru_cache(maxsize=2048)(fraction_of)
 
 
 class Draws:

@@ -10,7 +10,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import BeforeValidator, Field, PlainSerializer, ValidationInfo, WithJsonSchema
 
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.grammar import DIGITS, read
 from rldrill.problems.latex import typed
 from rldrill.problems.notation import Name, Node, Operation, nodes, whole, worked_out
@@ -84,7 +84,7 @@ class Root(str):
     @property
     def of(self) -> Fraction:
         """What it is the root of."""
-        return Fraction(self.removeprefix("sqrt(").removesuffix(")"))
+        return fraction_of(self.removeprefix("sqrt(").removesuffix(")"))
 
     def __float__(self) -> float:
         return sqrt(self.of)

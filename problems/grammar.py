@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from math import isqrt
 from typing import NamedTuple
 
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.notation import FUNCTIONS, Name, Node, Numeral, Operation
 from rldrill.problems.spelling import VULGAR, Source, Unreadable, quoted
 
@@ -327,7 +327,7 @@ class _Parser:
             digits = re.fullmatch("([+-]?)([0-9]{1,3})", sign.text.translate(_RAISED))
             if not digits:
                 raise self._error(f"The exponent {quoted(sign.text)} is not understood; write it as ^2.", sign)
-            exponent: Node = Numeral(Fraction(digits[2]), digits[2], sign.at)
+            exponent: Node = Numeral(fraction_of(digits[2]), digits[2], sign.at)
             if digits[1] == "-":
                 exponent = self._operation("-", sign, exponent)
             node = self._operation("^", sign, node, exponent)
@@ -383,7 +383,7 @@ class _Parser:
         if max(len(part) for part in mantissa.replace(".", "").split("/")) > most or abs(int(exponent or 0)) > DIGITS:
             raise self._error(f"{quoted(token.text)} is too long for a number; {most} digits are the most.", token)
         try:
-            return Fraction(digits)
+            return fraction_of(digits)
         except ZeroDivisionError:
             raise self._error("It divides by zero.", token) from None
 

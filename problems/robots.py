@@ -20,7 +20,7 @@ from rldrill.problems.exact import Exact
 from rldrill.problems.exact import shown as exact_shown
 from rldrill.problems.expressions import Expression, letter, letters, turning, worked_out, written, written_letter
 from rldrill.problems.family import Givens
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.mathematics import Math, mathematics, row, variable
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.pictures import Arm, Pendulum, Picture
@@ -156,7 +156,7 @@ def _robot(row_: Mapping[str, Any]) -> Robot:
         levels={use: tuple(levels) for use, levels in row_["levels"].items()},
         dynamics=row_["dynamics"],
         where=row_.get("where", {}),
-        constants={name: tuple(map(Fraction, texts)) for name, texts in row_["constants"].items()},
+        constants={name: tuple(map(fraction_of, texts)) for name, texts in row_["constants"].items()},
         state={name: tuple(map(read_angle, texts)) for name, texts in row_["state"].items()},
         action={name: tuple(map(read_angle, texts)) for name, texts in row_["action"].items()},
         varying={name: tuple(map(tuple, places)) for name, places in row_.get("varying", {}).items()},

@@ -13,7 +13,7 @@ from flint import arb, ctx, fmpq
 from sympy.core.sympify import converter
 
 from rldrill.problems.exact import Logarithm, Parameter, Root, Weight, needed
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.solutions import surds
 from rldrill.solutions.closed_forms import ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
@@ -418,4 +418,4 @@ def decimal(value: Value, digits: int = 6) -> str | None:
 def near(value: Value, digits: int) -> str:
     """The value as a decimal with the relation to it, in mathematics: = 0.125, but ≈ 0.3333."""
     written = needed(decimal(value, digits))
-    return f"{'=' if value == exact(Fraction(written)) else '≈'} {written}"
+    return f"{'=' if value == exact(fraction_of(written)) else '≈'} {written}"

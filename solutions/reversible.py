@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from rldrill.problems.exact import Parameter, Scalar, needed, shown
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
 from rldrill.solutions.exact import NoSolution, Value, exact, parameters, to_sympy, value_at
@@ -56,7 +56,7 @@ def _replaced(data: Any, letter: str, number: str) -> Any:
     if isinstance(data, list):
         return [_replaced(inner, letter, number) for inner in data]
     if data == f"1-{letter}":
-        return str(1 - Fraction(number))
+        return str(1 - fraction_of(number))
     return number if data == letter else data
 
 

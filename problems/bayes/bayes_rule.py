@@ -23,7 +23,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open
@@ -106,9 +106,9 @@ _STORIES = (
 
 _OPEN, _REST = Parameter("q"), Parameter("1-q")
 #: What q may be as a prior, and the likelihoods of a sensor.
-_SHARES = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "3/4", "1/5", "2/5", "3/5", "4/5")))
+_SHARES = tuple(map(fraction_of, ("1/4", "1/3", "1/2", "2/3", "3/4", "1/5", "2/5", "3/5", "4/5")))
 _CHANCES = tuple(
-    tuple(map(Fraction, chances))
+    tuple(map(fraction_of, chances))
     for chances in (("1/4", "1/2", "3/4"), ("1/5", "2/5", "3/5", "4/5"), ("1/10", "1/5", "1/2", "9/10"))
 )
 #: The greatest denominator of a belief on the way.

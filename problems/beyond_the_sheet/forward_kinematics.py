@@ -10,7 +10,7 @@ from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Forward kinematics"
@@ -98,7 +98,7 @@ def _to_find(rng: Draws) -> Given:
 
 
 #: Of the multiples of 60°.
-_COSINES = tuple(map(Fraction, ("1", "1/2", "-1/2", "-1", "-1/2", "1/2")))
+_COSINES = tuple(map(fraction_of, ("1", "1/2", "-1/2", "-1", "-1/2", "1/2")))
 
 
 def question(given: Given) -> Question:

@@ -93,10 +93,10 @@ def _moves(given: Given) -> bool:
             ahead = other[after][best]
             if ahead == mine[after][best]:
                 return False
-        gap = reward + Fraction(str(given.gamma)) * ahead - mine[state][action]
+        gap = reward + Fraction(given.gamma) * ahead - mine[state][action]
         if gap == 0:
             return False
-        mine[state][action] += Fraction(str(given.alpha)) * gap
+        mine[state][action] += Fraction(given.alpha) * gap
     return True
 
 
@@ -146,8 +146,8 @@ def _ties(given: Given) -> bool:
         if isinstance(given.alpha, Parameter) or isinstance(given.gamma, Parameter):
             moved.add((number, state))  # to what, is not known
         else:
-            gap = reward + Fraction(str(given.gamma)) * ahead - mine[state][action]
-            mine[state][action] += Fraction(str(given.alpha)) * gap
+            gap = reward + Fraction(given.gamma) * ahead - mine[state][action]
+            mine[state][action] += Fraction(given.alpha) * gap
     return False
 
 

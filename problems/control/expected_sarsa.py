@@ -161,6 +161,6 @@ def _ties(given: EpsilonGreedy) -> bool:
         if any(isinstance(rate, Parameter) for rate in rates):
             moved.add(state)  # to what, is not known
         else:
-            gap = reward + Fraction(str(given.gamma)) * ahead - values[state][action]
-            values[state][action] += Fraction(str(given.alpha)) * gap
+            gap = reward + Fraction(given.gamma) * ahead - values[state][action]
+            values[state][action] += Fraction(given.alpha) * gap
     return False

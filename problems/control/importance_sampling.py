@@ -10,7 +10,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import (
     DistributionField,
     Named,
@@ -115,7 +115,7 @@ def draw(level: int, rng: Draws) -> Given:
     for state in (first, second):
         pair = rng.choice(_PAIRS)
         actions = both if rng.chance(Fraction(1, 2)) else both[::-1]
-        chances = [dict(zip(actions, (Fraction(text), 1 - Fraction(text)), strict=True)) for text in pair]
+        chances = [dict(zip(actions, (fraction_of(text), 1 - fraction_of(text)), strict=True)) for text in pair]
         behaviour[state], target[state] = ({action: row[action] for action in both} for row in chances)
     given = Given(
         episodes=tuple(
@@ -141,10 +141,10 @@ def _open_matters(given: Given, onward: str) -> bool:
     for episode in given.episodes:
         (first, *later), (state, *rest) = episode.actions, episode.states
         shares = [
-            Fraction(str(given.target[after][action])) / Fraction(str(given.behaviour[after][action]))
+            Fraction(given.target[after][action]) / Fraction(given.behaviour[after][action])
             for after, action in zip(rest, later, strict=False)
         ]
-        slope = prod(shares, start=1 / Fraction(str(given.behaviour[state][first])))
+        slope = prod(shares, start=1 / Fraction(given.behaviour[state][first]))
         slopes.append(slope if first == onward else -slope)
     return sum(slopes) != 0 and all(abs(slope) != 1 for slope in slopes)
 
@@ -155,13 +155,13 @@ def _telling(given: Given) -> bool:
     returns: list[Fraction] = []
     for episode in given.episodes:
         shares = [
-            Fraction(str(given.target[state][action])) / Fraction(str(given.behaviour[state][action]))
+            Fraction(given.target[state][action]) / Fraction(given.behaviour[state][action])
             for state, action in zip(episode.states, episode.actions, strict=False)
         ]
         ratios.append(prod(shares, start=Fraction(1)))
         returns.append(
             sum(
-                (reward * Fraction(str(given.gamma)) ** time for time, reward in enumerate(episode.rewards)),
+                (reward * Fraction(given.gamma) ** time for time, reward in enumerate(episode.rewards)),
                 Fraction(0),
             )
         )

@@ -9,7 +9,7 @@ from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Named, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open, not_known
@@ -76,7 +76,7 @@ def draw(level: int, rng: Draws) -> Given:
     shape = rng.choice(again[::2] if replacing else visits)
     trajectory, values = draw_action_run(rng, shape, 2 if level == 1 else 3, same=level > 1)
     comes_back = len(set(shape)) < len(shape)
-    alpha, gamma, lam = map(Fraction, rng.choice(_RATES[: 2 if level == 2 and not comes_back else 1]))
+    alpha, gamma, lam = map(fraction_of, rng.choice(_RATES[: 2 if level == 2 and not comes_back else 1]))
     traces = None
     if level == 1:
         traced = trajectory.states[1], rng.choice(tuple(values[trajectory.states[1]]))
@@ -97,15 +97,15 @@ def draw(level: int, rng: Draws) -> Given:
 
 def _learned(given: Given) -> dict[tuple[str, str], Fraction]:
     """The values after a run of Sarsa(λ) in which nothing is left open, and before which no pair has a trace."""
-    run, gamma = given.trajectory, Fraction(str(given.gamma))
+    run, gamma = given.trajectory, Fraction(given.gamma)
     pairs = tuple(zip(run.states, run.actions, strict=False))
     Q = {(state, action): value for state, row in given.values.items() for action, value in row.items()}
     e = dict.fromkeys(Q, Fraction(0))
     for here, after, reward in zip(pairs, (*pairs[1:], None), run.rewards, strict=False):
-        e = {pair: gamma * Fraction(str(given.lam)) * trace for pair, trace in e.items()}
+        e = {pair: gamma * Fraction(given.lam) * trace for pair, trace in e.items()}
         e[here] = Fraction(1) if given.replacing else e[here] + 1
         error = reward + gamma * (Q[after] if after else Fraction(0)) - Q[here]
-        Q = {pair: value + Fraction(str(given.alpha)) * e[pair] * error for pair, value in Q.items()}
+        Q = {pair: value + Fraction(given.alpha) * e[pair] * error for pair, value in Q.items()}
     return Q
 
 

@@ -11,7 +11,7 @@ from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import in_open, not_known
@@ -151,7 +151,7 @@ def method(*, sarsa: bool, q_learning: bool) -> str:
 def _sought_rates(rng: Draws) -> Rates:
     """A step size that is not guessed, and a discount."""
     alpha = rng.fraction("1/2", "1/3", "2/3", "1/4", "3/4", "1/5", "2/5", "3/5")
-    gamma = rng.fraction(*(number for number in ("1/2", "1/4", "3/4") if Fraction(number) != alpha))
+    gamma = rng.fraction(*(number for number in ("1/2", "1/4", "3/4") if fraction_of(number) != alpha))
     return Rates(alpha, gamma, gamma.denominator)
 
 

@@ -8,7 +8,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name, Named, check_keys
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount
@@ -73,7 +73,7 @@ def draw(level: int, rng: Draws) -> Given:
     discounts = {1: ("1/2", "1/3", "1/4", "1/5"), 2: ("1/2", "1/3", "1/4"), 3: ("2/3", "3/4", "4/5")}[level]
     gamma = rng.fraction(*discounts)
     distance = max(abs(other[state] - value) for state, value in start.items()) / (1 if known else 1 - gamma)
-    near = [each for each in _ACCURACIES.get(level, ()) if _sweeps(distance, gamma, Fraction(each)) in _BY_HAND]
+    near = [each for each in _ACCURACIES.get(level, ()) if _sweeps(distance, gamma, fraction_of(each)) in _BY_HAND]
     if level > 1 and not near:
         return draw(level, rng)
     return Given(

@@ -24,7 +24,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.parts import Number, Part
 
 TITLE = "Piecewise linear RBF"
@@ -105,14 +105,14 @@ def draw(level: int, rng: Draws) -> Given:
     return Given(
         position=centred.position,
         centres=centred.centres,
-        width=Fraction(width),
+        width=fraction_of(width),
         theta=tuple(rng.nonzero(-3, 5) for _ in centred.centres) if valued else (),
     )
 
 
 def _ceiling(width: str) -> Fraction:
     """The first whole distance at which a feature is 0."""
-    return Fraction(ceil(Fraction(width)))
+    return Fraction(ceil(fraction_of(width)))
 
 
 def _width_sought(rng: Draws) -> Given:
@@ -122,7 +122,7 @@ def _width_sought(rng: Draws) -> Given:
         centred = draw_on_a_line(rng, rng.shuffled((*rng.distinct(rng.choice((2, 3)), 1, int(width) - 1), width)))
     else:
         text = rng.choice(tuple(_STEPS))
-        width, centred = Fraction(text), draw_in_the_plane(rng, _STEPS[text])
+        width, centred = fraction_of(text), draw_in_the_plane(rng, _STEPS[text])
     squares = [square(centred.position or (), centre) for centre in centred.centres]
     number = rng.choice([n for n, far in enumerate(squares, 1) if far < width**2 and isqrt(int(far)) ** 2 == far])
     known = {number: 1 - isqrt(int(squares[number - 1])) / width}

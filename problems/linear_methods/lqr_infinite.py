@@ -12,7 +12,7 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Scalar, shown
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.linear_quadratic import Conventional, check_cross, quadratic
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
@@ -125,7 +125,7 @@ def _price(rng: Draws) -> Given:
     """A closed loop c that is best for a price of states or of actions: P = −L r/(γ b c), and q = P (γ a c − 1)."""
     while True:
         sign = rng.choice((1, -1))
-        a, c = (sign * Fraction(text) for text in rng.choice(_LOOPS))
+        a, c = (sign * fraction_of(text) for text in rng.choice(_LOOPS))
         b = rng.choice([b for b in map(Fraction, (1, 2)) if b != a])
         gamma = rng.fraction("1", "1", "1/2", "2/3")
         r = rng.whole(1, 6)

@@ -99,8 +99,8 @@ def draw(level: int, rng: Draws) -> Given:
 def _first_error(given: Given) -> Fraction:
     """The first TD error, of a run in which nothing is left open but perhaps the step size."""
     state, after, *_ = given.trajectory.states
-    ahead = Fraction(str(given.gamma)) * Fraction(str(given.values.get(after, 0)))
-    return Fraction(str(given.trajectory.rewards[0])) + ahead - Fraction(str(given.values[state]))
+    ahead = Fraction(given.gamma) * Fraction(given.values.get(after, 0))
+    return Fraction(given.trajectory.rewards[0]) + ahead - Fraction(given.values[state])
 
 
 def _in_order(setting: Setting, states: tuple[str, ...]) -> list[str]:

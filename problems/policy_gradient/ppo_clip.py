@@ -11,7 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, needed, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import ActionPreferences
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
 from rldrill.problems.settings import Setting, draw_setting
@@ -144,8 +144,8 @@ def draw(level: int, rng: Draws) -> Given:
             Sample(
                 state=state,
                 action=rng.choice(setting.actions[:2]),
-                old=Fraction(old),
-                new=Fraction(new),
+                old=fraction_of(old),
+                new=fraction_of(new),
                 advantage=sign * count * rng.whole(1, 6 // count),
             )
         )
@@ -165,7 +165,7 @@ def _searched(rng: Draws, setting: Setting) -> Given:
         order = rng.shuffled(setting.actions[:2])
         preferences = {order[0]: Logarithm(f"ln {number}"), order[1]: Fraction(0)}
         advantage = (1 if more == cut else -1) * rng.whole(1, 6)
-        before = Fraction(old)
+        before = fraction_of(old)
         ratio = Fraction(number if taken == 0 else 1, number + 1) / before
         held = 1 + epsilon if more else 1 - epsilon
         objective += (held if cut else ratio) * advantage / len(cuts)

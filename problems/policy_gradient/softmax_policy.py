@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Parameter, Weight, WeightField, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, OneStateFeatures, check_features, features_table, weights
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import check_one_open, in_open
@@ -112,7 +112,7 @@ def _odds(rng: Draws, actions: tuple[str, ...]) -> Given:
     action, other = rng.choice(pairs)
     lead = [x - y for x, y in zip(features[action], features[other], strict=True)]
     x = rng.fraction("2", "3", "4", "5", "3/2", "5/2", "1/2", "2/3")
-    bases = (*(Fraction(str(weight).removeprefix("ln ")) for weight in theta[:-1]), x)
+    bases = (*(fraction_of(str(weight).removeprefix("ln ")) for weight in theta[:-1]), x)
     times = prod((base ** int(more) for base, more in zip(bases, lead, strict=True)), start=Fraction(1))
     odds = Odds(action, other, times) if times >= 1 else Odds(other, action, 1 / times)
     return Given(theta=(*theta[:-1], Logarithm("ln x")), features=features, odds=odds)

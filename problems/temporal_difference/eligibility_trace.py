@@ -9,7 +9,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
@@ -57,7 +57,7 @@ class Given(Reversible):
 
 #: γ and λ; traces decay by their product, which is 1/2 or 1/3.
 _DECAYS = tuple(
-    (Fraction(gamma), Fraction(lam))
+    (fraction_of(gamma), fraction_of(lam))
     for gamma, lam in (("1/2", "2/3"), ("2/3", "3/4"), ("3/4", "2/3"), ("2/3", "1/2"), ("4/5", "5/8"), ("5/6", "3/5"))
 )
 

@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discounts, Open, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Named, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
@@ -109,7 +109,7 @@ def _average(given: Given) -> Fraction:
     V = {state: Fraction(value) for state, value in given.values.items()}
     worth = V.get(run.states[-1], Fraction(0))
     for after, reward in zip(reversed(run.states), reversed(run.rewards), strict=False):
-        worth = reward + Fraction(str(given.gamma)) * ((1 - lam) * V.get(after, Fraction(0)) + lam * worth)
+        worth = reward + fraction_of(str(given.gamma)) * ((1 - lam) * V.get(after, Fraction(0)) + lam * worth)
     return worth
 
 

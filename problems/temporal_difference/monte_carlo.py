@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, StepSize
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import RETURN_DEFINED, in_open
@@ -132,7 +132,7 @@ def _episode(rng: Draws, *visits: str) -> OfStates:
     return OfStates(
         trajectory=Trajectory(states=states, rewards=rewards, terminal=(setting.terminal,)),
         values=values,
-        alpha=rng.fraction(*(each for each in ("1/2", "1/4", "1/5") if Fraction(each) != gamma)),
+        alpha=rng.fraction(*(each for each in ("1/2", "1/4", "1/5") if fraction_of(each) != gamma)),
         gamma=gamma,
         visits=rng.choice(("first", "every")),
     )

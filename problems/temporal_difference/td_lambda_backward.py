@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
@@ -115,7 +115,7 @@ def _learned(run: Given) -> dict[str, Fraction]:
 
 #: γ and λ, by whose product traces decay.
 _DECAYS = tuple(
-    (Fraction(g), Fraction(lam))
+    (fraction_of(g), fraction_of(lam))
     for g, lam in (("1/2", "2/3"), ("3/4", "2/3"), ("4/5", "1/2"), ("1/2", "1"), ("1/2", "4/5"))
 )
 

@@ -12,7 +12,7 @@ from rldrill.problems.control.sarsa_versus_q_learning import (
 )
 from rldrill.problems.document import joined
 from rldrill.problems.exact import needed, shown
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, told
 from rldrill.solutions.formula.formula import Formula, slip
@@ -285,7 +285,7 @@ def oracle(given: Given) -> Answers:
         letter = _by_oracle(given)
         return [_tried(given, greedy=False), _tried(given, greedy=True), letter]
     place = first_that_reads_again(given.trajectory) or 0
-    low, high = (_tried(_with(given, Fraction(trial)), greedy=False)[place] for trial in ("1/4", "3/4"))
+    low, high = (_tried(_with(given, fraction_of(trial)), greedy=False)[place] for trial in ("1/4", "3/4"))
     alpha = 1 / 4 + (at(given.known) - low) / (high - low) / 2
     solved = _with(given, Fraction(alpha).limit_denominator(10**6))
     return [alpha, _tried(solved, greedy=True), _by_oracle(solved)]

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from flint import fmpq
 
 from rldrill.problems import mathematics as written
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.grammar import read
 from rldrill.problems.latex import typed
 from rldrill.problems.mathematics import Math
@@ -111,7 +111,7 @@ def _in(math: Math) -> Iterator[Fraction]:
     """The numbers in typeset mathematics."""
     match math:
         case written.Glyph(text, "number"):
-            yield Fraction(text)
+            yield fraction_of(text)
         case written.Fraction(written.Glyph(above, "number"), written.Glyph(below, "number")):
             yield Fraction(int(above), int(below))
         case written.Fraction(above, below):
