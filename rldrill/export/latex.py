@@ -7,8 +7,8 @@ from rldrill.export.words import page_words
 from rldrill.print.solved import with_mathematics
 from rldrill.print.words import Words, words
 from rldrill.problems.parts import Choice, Part, YesNo
-from rldrill.render.latex import latex_block, latex_document, latex_text
-from rldrill.render.mathematics.latex import latex_plain, latex_typed
+from rldrill.render.latex import latex_block, latex_document
+from rldrill.render.mathematics.latex import latex_plain, latex_text, latex_typed
 from rldrill.solutions.effort import minutes_of, whole
 
 #: So many wrong answers to a part are told.

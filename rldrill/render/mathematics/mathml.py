@@ -1,6 +1,5 @@
 """Mathematics as MathML, which every browser sets and every screen reader reads."""
 
-import re
 from collections.abc import Sequence
 from html import escape
 
@@ -21,11 +20,10 @@ from rldrill.problems.mathematics import (
     is_sign,
     with_joined_scripts,
 )
-from rldrill.render.mathematics.spacing import is_tall, needs_space
+from rldrill.render.mathematics.scripts import on_one_line, taken_apart
+from rldrill.render.mathematics.spacing import is_tall, needs_space, opens
 from rldrill.render.mathematics.unicode import unmarked
 
-_NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
-_DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _BIGS = {"Σ": "∑", "Π": "∏", "∏": "∏", "∑": "∑", "∫": "∫"}
 _MARKS = {"hat": "^", "bar": "‾", "tilde": "~"}
 _BLOCK = ' display="block"'
@@ -33,7 +31,6 @@ _BLOCK = ' display="block"'
 _SIGNED: dict[Math, str] = {
     Glyph(sign, "operator"): f'<mo form="prefix" lspace="0" rspace="0">{sign}</mo>' for sign in "+−±"
 }
-_BEFORE_A_SIGN = ("relation", "operator", "punctuation")
 _THIN = '<mspace width="0.17em"></mspace>'
 
 
@@ -115,13 +112,12 @@ def _limits(base: str, below: Math | None, above: Math | None) -> str:
 
 def _taken_apart(glyph: Glyph) -> tuple[str, str, str]:
     """A glyph as base, subscript and superscript: ``s₁′`` has all three."""
-    match = _NAME.fullmatch(glyph.text)
-    if match is None or glyph.style not in ("variable", "word") or not match["stem"]:
+    stem, digits, primes = taken_apart(glyph.text, glyph.style)
+    if not stem:
         return _sign(glyph.text, glyph.style), "", ""
-    digits = match["digits"].translate(_DIGITS)
     below = f"<mn>{digits}</mn>" if digits else ""
-    above = f"<mo>{'′' * len(match['primes'])}</mo>" if match["primes"] else ""
-    return _sign(match["stem"], glyph.style), below, above
+    above = f"<mo>{'′' * primes}</mo>" if primes else ""
+    return _sign(stem, glyph.style), below, above
 
 
 def _sign(text: str, style: str) -> str:
@@ -146,8 +142,8 @@ def _sign(text: str, style: str) -> str:
 def _script(script: Script) -> str:
     body, below, above = script.body, script.below, script.above
     base, digits, primes = _taken_apart(body) if isinstance(body, Glyph) else (element(body), "", "")
-    lower = [part for part in (digits, "" if below is None else element(_on_one_line(below))) if part]
-    upper = [part for part in (primes, "" if above is None else element(_on_one_line(above))) if part]
+    lower = [part for part in (digits, "" if below is None else element(on_one_line(below))) if part]
+    upper = [part for part in (primes, "" if above is None else element(on_one_line(above))) if part]
     return _scripts(base, _joined(lower), _joined(upper))
 
 
@@ -163,25 +159,11 @@ def _scripts(base: str, below: str, above: str) -> str:
     return f"<msup>{base}{above}</msup>" if above else base
 
 
-def _on_one_line(math: Math) -> Math:
-    """Small print has no room for one number above another: ``3/2``."""
-    if isinstance(math, Row):
-        return Row(tuple(map(_on_one_line, math.items)))
-    if isinstance(math, Fraction) and isinstance(math.numerator, Glyph) and isinstance(math.denominator, Glyph):
-        return Row((math.numerator, Glyph("/", "punctuation"), math.denominator))
-    return math
-
-
 def _row(items: tuple[Math, ...]) -> str:
     written: list[str] = []
     bare = tuple(map(unmarked, items))
     for before, after, item in zip((None, *bare), bare, items, strict=False):
         if before is not None and needs_space(before, after):
             written.append(_THIN)
-        written.append(_SIGNED[item] if item in _SIGNED and (before is None or _opens(before)) else element(item))
+        written.append(_SIGNED[item] if item in _SIGNED and (before is None or opens(before)) else element(item))
     return "".join(written)
-
-
-def _opens(before: Math) -> bool:
-    """Whether a sign behind this belongs to what follows."""
-    return isinstance(before, Big) or (isinstance(before, Glyph) and before.style in _BEFORE_A_SIGN)

@@ -16,6 +16,7 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
 )
+from rldrill.render.mathematics.spacing import is_word, opens
 
 #: Signs and their small forms below and above the line.
 BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
@@ -108,17 +109,17 @@ def _row(items: tuple[Math, ...]) -> str:
     for position, item in enumerate(items):
         if isinstance(item, Glyph) and item.style == "operator" and item.text in "+−±":
             # A sign with nothing before it belongs to what follows; between two terms it stands free.
-            binary = position > 0 and not _opens(items[position - 1])
+            binary = position > 0 and not opens(items[position - 1])
             text += f" {item.text} " if binary else item.text
         else:
             if isinstance(item, Big) and text and text[-1] not in " ([{|":
                 text += " "
             if position and isinstance(items[position - 1], Fence) and _is_letter(item):
                 text += " "
-            if isinstance(item, Glyph) and item.style == "word" and text and text[-1].isalnum():
+            if is_word(item) and text and text[-1].isalnum():
                 text += " "
             text += unicode(item)
-            if _is_word(item) and position + 1 < len(items) and isinstance(items[position + 1], Glyph | Script):
+            if is_word(item) and position + 1 < len(items) and isinstance(items[position + 1], Glyph | Script):
                 following = items[position + 1]
                 if not (isinstance(following, Glyph) and following.style in ("punctuation", "relation", "operator")):
                     text += " "
@@ -133,17 +134,9 @@ def _is_plain_product(item: Math) -> bool:
     )
 
 
-def _is_word(item: Math) -> bool:
-    return isinstance(item, Glyph) and item.style == "word"
-
-
 def _is_letter(item: Math) -> bool:
     head = item.body if isinstance(item, Script) else item
     return isinstance(head, Glyph) and head.style in ("variable", "word")
-
-
-def _opens(item: Math) -> bool:
-    return isinstance(item, Big) or (isinstance(item, Glyph) and item.style in ("relation", "operator", "punctuation"))
 
 
 def _grouped(math: Math) -> str:
@@ -175,9 +168,7 @@ def _script(body: Math, below: Math | None, above: Math | None) -> str:
 
 def _is_readable_above(math: Math) -> bool:
     """Whether an exponent can be written with small signs, and holds no words such as ln."""
-    words = any(
-        isinstance(item, Glyph) and item.style == "word" for item in (math.items if isinstance(math, Row) else ())
-    )
+    words = any(map(is_word, math.items if isinstance(math, Row) else ()))
     return _all_shift(math, ABOVE) and not words
 
 
