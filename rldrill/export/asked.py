@@ -86,6 +86,11 @@ def answer(exercise: Exercise, part: Part) -> Block:
     return exercise.answer(part)
 
 
+def label(exercise: Exercise, part: Part) -> str:
+    """The letter of a part, with the space behind it; nothing where there is only one."""
+    return f"({part.label}) " if len(exercise.parts) > 1 else ""
+
+
 def _cell(part: Part, name: str, left: Math | None, content: Any, told: Words) -> Cell:
     match part.kind:
         case Choice(options):

@@ -5,7 +5,7 @@ from rldrill.exercise import Exercise
 from rldrill.export.asked import Wrong, answer, listed, typeset
 from rldrill.export.words import page_words
 from rldrill.print.solved import with_mathematics
-from rldrill.print.words import Words, words
+from rldrill.print.words import Words, words, written_time
 from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.render.latex import latex_block, latex_document
 from rldrill.render.mathematics.latex import latex_plain, latex_text, latex_typed
@@ -66,7 +66,7 @@ def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
     if version.person is not None:
         name, number = latex_plain(version.person.name), latex_plain(version.person.number)
     who = rf"{told.name}: {name}\hfill {told.number}: {number}"
-    time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
+    time = written_time(told, head.duration, version.minutes)
     place = " · ".join(filter(None, (head.course, head.date, code)))
     lines = [f"{{\\Large\\bfseries {latex_plain(head.title)}\\par}}", latex_plain(place), who]
     lines += [latex_plain(f"{told.rule} {time}"), latex_plain(head.instructions)]
