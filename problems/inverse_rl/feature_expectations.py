@@ -39,7 +39,7 @@ class Given(Givens):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if self.estimate is not None and (not super().parameters() or self.size < 2):
+        if self.estimate is not None and (not self.left_open or self.size < 2):
             raise ValueError("estimate: leave gamma open, for it is asked for, and give two features at least")
         if not all(self.trajectories):
             raise ValueError("trajectories: one of them has no states; add them")
@@ -57,7 +57,7 @@ class Given(Givens):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters that answers are expressions in: none where the discount is asked for."""
-        return () if self.estimate is not None else super().parameters()
+        return () if self.estimate is not None else self.left_open
 
 
 def draw(level: int, rng: Draws) -> Given:

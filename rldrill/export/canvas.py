@@ -162,8 +162,8 @@ def _questions(
     yield _Question("text_only_question", title, writer.blocks(exercise.question()) + note)
     for part, every in asked:
         for question in _of_part(writer, exercise, part, every):
-            working = writer.solved(exercise, part) if practice else ""
-            yield replace(question, title=f"{title} {question.title}".strip(), working=working)
+            working = writer.solved(exercise, part)
+            yield replace(question, title=f"{title} {question.title}".strip(), working=working if practice else "")
 
 
 def _of_part(writer: WithFiles, exercise: Exercise, part: Part, every: Sequence[Cell]) -> Iterator[_Question]:
