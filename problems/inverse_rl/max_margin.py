@@ -58,9 +58,7 @@ class Given(AskedFor):
     def _fits(self) -> Self:
         if EXPERT in self.policies:
             raise ValueError(f"policies: {EXPERT!r} is the name of the expert's own policy; rename it")
-        check_lengths(
-            {"w": self.w, EXPERT: self.expert} | {name: rival.mu for name, rival in self.policies.items()}, "features"
-        )
+        check_lengths({"w": self.w, EXPERT: self.expert} | {name: rival.mu for name, rival in self.policies.items()})
         if len(self.left_open) > 1 or len([weight for weight in self.w if isinstance(weight, Parameter)]) > 1:
             raise ValueError("w: leave one weight open at most")
         if self.asked_for:

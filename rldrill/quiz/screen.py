@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
-from rich.table import Table
 from rich.text import Text
 
 from rldrill.entries import by_name
@@ -451,10 +450,7 @@ class Screen:
             self._indented(words(followed.sentence))
 
     def _help(self) -> None:
-        grid = Table.grid(padding=(0, 2))
-        for key, meaning in HELP:
-            grid.add_row(Text(f"  {key}", style="bold"), words(meaning))
-        self._print(grid)
+        self._display.keys(HELP)
         self._indented(Text(f"Right is {RULE}. {COUNTS}", style="dim"))
 
     def summary(self, session: Session, seconds: float) -> None:
@@ -484,9 +480,7 @@ def _without_value(diagnosis: "Diagnosis") -> Equation | None:
     right = diagnosis.right
     if right is None or diagnosis.place is None or diagnosis.place.step is None:
         return right  # a formula has no value
-    if len(right.rights) == 1:
-        return None
-    return right.without_last()
+    return right.without_last() if len(right.rights) > 1 else None
 
 
 def _how(part: PartRecord) -> str:

@@ -58,7 +58,7 @@ HOSTILE = [
     "~",
     "=h",
 ]
-SETUP = page_setup("a4", title="t", left="", right="", margin="2cm")
+SETUP = page_setup("a4", title="t", margin="2cm", size="10.5pt", columns=1)
 NARROW = SETUP + "#set page(width: 9cm, height: 25cm, margin: 1cm)\n#set text(size: 9pt)\n"
 CENTIMETRE = 72 / 2.54
 
