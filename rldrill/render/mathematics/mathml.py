@@ -26,7 +26,6 @@ from rldrill.render.mathematics.unicode import unmarked
 
 _BIGS = {"Σ": "∑", "Π": "∏", "∏": "∏", "∑": "∑", "∫": "∫"}
 _MARKS = {"hat": "^", "bar": "‾", "tilde": "~"}
-_BLOCK = ' display="block"'
 #: A sign that belongs to what follows, as in −5.
 _SIGNED: dict[Math, str] = {
     Glyph(sign, "operator"): f'<mo form="prefix" lspace="0" rspace="0">{sign}</mo>' for sign in "+−±"
@@ -34,9 +33,9 @@ _SIGNED: dict[Math, str] = {
 _THIN = '<mspace width="0.17em"></mspace>'
 
 
-def mathml(math: Math, *, display: bool = False) -> str:
-    """Mathematics as a ``math`` element, within a line or on one of its own."""
-    return f"<math{_BLOCK if display else ''}>{element(math)}</math>"
+def mathml(math: Math) -> str:
+    """Mathematics as a ``math`` element within a line."""
+    return f"<math>{element(math)}</math>"
 
 
 def element(math: Math) -> str:
@@ -56,7 +55,8 @@ def element(math: Math) -> str:
             brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)
             return f"<mrow>{brackets[0]}{element(body)}{brackets[1]}</mrow>"
         case Big(sign, below, above):
-            return _limits(_big(sign), below, above)
+            lower, upper = ("" if limit is None else element(limit) for limit in (below, above))
+            return _scripts(_big(sign), lower, upper, ("munder", "mover", "munderover"))
         case Root(body):
             return f"<msqrt>{element(body)}</msqrt>"
         case Accent(body, mark):
@@ -102,14 +102,6 @@ def _big(sign: str) -> str:
     return f'<mo movablelimits="false" lspace="0.1em" rspace="0.17em">{escape(sign)}</mo>'
 
 
-def _limits(base: str, below: Math | None, above: Math | None) -> str:
-    if below is not None and above is not None:
-        return f"<munderover>{base}{element(below)}{element(above)}</munderover>"
-    if below is not None:
-        return f"<munder>{base}{element(below)}</munder>"
-    return base if above is None else f"<mover>{base}{element(above)}</mover>"
-
-
 def _taken_apart(glyph: Glyph) -> tuple[str, str, str]:
     """A glyph as base, subscript and superscript: ``s₁′`` has all three."""
     stem, digits, primes = taken_apart(glyph.text, glyph.style)
@@ -151,12 +143,10 @@ def _joined(parts: Sequence[str]) -> str:
     return parts[0] if len(parts) == 1 else f"<mrow>{''.join(parts)}</mrow>" if parts else ""
 
 
-def _scripts(base: str, below: str, above: str) -> str:
-    if below and above:
-        return f"<msubsup>{base}{below}{above}</msubsup>"
-    if below:
-        return f"<msub>{base}{below}</msub>"
-    return f"<msup>{base}{above}</msup>" if above else base
+def _scripts(base: str, below: str, above: str, tags: Sequence[str] = ("msub", "msup", "msubsup")) -> str:
+    """What stands below and above; the tags are those for the one, the other and both."""
+    tag = tags[2 if below and above else 0 if below else 1]
+    return f"<{tag}>{base}{below}{above}</{tag}>" if below or above else base
 
 
 def _row(items: tuple[Math, ...]) -> str:

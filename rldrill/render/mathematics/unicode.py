@@ -27,6 +27,8 @@ ABOVE = dict(
         strict=True,
     )
 )
+#: Primes stand below the line as they are.
+_LOWERED = BELOW | {"′": "′"}
 _LARGE = str.maketrans({small: large for large, small in ABOVE.items()})
 _SMALL_POWER = re.compile(f"(?<![^\\W\\d_])e([{re.escape(''.join(ABOVE.values()))}]+)")
 _PARTIAL = Glyph("∂", "variable")
@@ -154,7 +156,10 @@ def _grouped(math: Math) -> str:
 
 def scripts(below: Math | None, above: Math | None) -> str:
     """A subscript and a superscript as text."""
-    return _lowered(below) + _raised(above)
+    lowered = "" if below is None else _shifted(below, _LOWERED, "_")
+    if above == Glyph("*", "operator"):
+        return f"{lowered}*"
+    return lowered if above is None else lowered + _shifted(above, ABOVE, "^")
 
 
 def _script(body: Math, below: Math | None, above: Math | None) -> str:
@@ -169,30 +174,14 @@ def _script(body: Math, below: Math | None, above: Math | None) -> str:
 def _is_readable_above(math: Math) -> bool:
     """Whether an exponent can be written with small signs, and holds no words such as ln."""
     words = any(map(is_word, math.items if isinstance(math, Row) else ()))
-    return _all_shift(math, ABOVE) and not words
-
-
-def _lowered(math: Math | None) -> str:
-    return "" if math is None else _shifted(math, BELOW, "_")
-
-
-def _raised(math: Math | None) -> str:
-    if math == Glyph("*", "operator"):
-        return "*"
-    return "" if math is None else _shifted(math, ABOVE, "^")
+    return not words and all(sign in ABOVE for sign in unicode(math).replace(" ", ""))
 
 
 def _shifted(math: Math, table: dict[str, str], mark: str) -> str:
     text = unicode(math).replace(" ", "")
-    primes = len(text) - len(text.rstrip("′"))
-    stem = text.rstrip("′") if table is BELOW else text
-    if stem and all(sign in table or (sign == "′" and table is BELOW) for sign in stem):
-        return "".join(table.get(sign, sign) for sign in stem) + "′" * (primes if table is BELOW else 0)
+    if text.strip("′") and all(sign in table for sign in text):
+        return "".join(table[sign] for sign in text)
     return f"{mark}{text}" if len(text) == 1 or _bracketed(text) else f"{mark}({text})"
-
-
-def _all_shift(math: Math, table: dict[str, str]) -> bool:
-    return all(sign in table for sign in unicode(math).replace(" ", ""))
 
 
 def _bracketed(text: str) -> bool:
