@@ -27,7 +27,6 @@ _FRONT = "{{Question}}"
 _BACK = '{{FrontSide}}<hr id="answer">{{Answer}}<p class="id">{{ID}}</p>'
 #: The moment that all notes are of, so that the same exam is the same file.
 _TIME = 1_600_000_000.0
-_MISTAKES = 4
 _HTML = LatexHtml()
 
 
@@ -99,7 +98,7 @@ def _asked(exercise: Exercise, part: Part) -> str:
 
 
 def _solved(exercise: Exercise, part: Part, told: Words) -> str:
-    wrong = "".join(_wrong(part, each) for each in listed(exercise, part, _MISTAKES))
+    wrong = "".join(_wrong(part, each) for each in listed(exercise, part))
     mistakes = f"<p>{told.mistakes}</p><ul>{wrong}</ul>" if wrong else ""
     return (
         f"<p><b>{label(exercise, part)}</b></p>{_HTML.block(answer(exercise, part))}"

@@ -26,6 +26,8 @@ from rldrill.solutions.exact import NotReal, decimal, parameters
 
 #: So many wrong answers to a part go along, the likeliest ones.
 _MISTAKES = 24
+#: So many of them a reader is told in a list.
+_LISTED = 4
 #: So many wrong answers are told in one cell.
 _TOLD = 6
 #: A decimal in a file has so many significant digits.
@@ -137,10 +139,10 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
         yield Wrong(tuple(map(_typed, found.values())), value, by_name(wrong.sentence, part.kind), wrong.read)
 
 
-def listed(exercise: Exercise, part: Part, most: int) -> Iterator[Wrong]:
+def listed(exercise: Exercise, part: Part) -> Iterator[Wrong]:
     """Wrong answers to a part that a reader is told; those that the statement rules out are recognised only."""
-    possible = (each for each in wrong_answers(exercise, part, 2 * most) if is_possible(exercise, part, each.value))
-    return islice(possible, most)
+    possible = (each for each in wrong_answers(exercise, part, 2 * _LISTED) if is_possible(exercise, part, each.value))
+    return islice(possible, _LISTED)
 
 
 def typeset(part: Part, wrong: Wrong) -> Sequence[Math]:

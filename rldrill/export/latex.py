@@ -11,8 +11,6 @@ from rldrill.render.latex import latex_block, latex_document
 from rldrill.render.mathematics.latex import latex_plain, latex_text, latex_typed
 from rldrill.solutions.effort import minutes_of, whole
 
-#: So many wrong answers to a part are told.
-_MISTAKES = 4
 _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \usepackage{iftex}
 \ifPDFTeX
@@ -108,7 +106,7 @@ def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
     lines = "".join(
         f"\\item {_typed(part, wrong)}: {latex_text(with_mathematics(wrong.says))}"
         f"{'' if wrong.read is None else latex_block(wrong.read)}\n"
-        for wrong in listed(exercise, part, _MISTAKES)
+        for wrong in listed(exercise, part)
     )
     if not lines:
         return ""

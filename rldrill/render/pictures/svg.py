@@ -5,7 +5,7 @@ from html import escape
 
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import Math, Script
-from rldrill.problems.pictures import Picture, Timeline
+from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.scene import (
@@ -35,8 +35,6 @@ def svg(picture: Picture) -> str:
     Raises:
         TypeError: it is a timeline, which is no drawing but a row of texts.
     """
-    if isinstance(picture, Timeline):
-        raise TypeError("a timeline is written as a row of texts")
     scene = scene_of(picture)
     return "" if scene is None else drawn(scene, described(picture))
 
