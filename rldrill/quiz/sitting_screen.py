@@ -15,6 +15,7 @@ from rldrill.entries import by_name
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.document import counted
+from rldrill.problems.errors import reason
 from rldrill.problems.parts import Kind, Part
 from rldrill.quiz.display import Display
 from rldrill.quiz.prompt import Ask
@@ -99,9 +100,8 @@ class SittingScreen:
             self._kept = False
             if not self._told:
                 self._told = True
-                why = (error.strerror or str(error)).lower()
                 self._print(
-                    words((f"Your answers cannot be written to {sitting.path}: {why}. ", "yellow"),
+                    words((f"Your answers cannot be written to {sitting.path}: {reason(error)}. ", "yellow"),
                           "It is tried again with every answer; hand in here, or make room before you leave.")
                 )  # fmt: skip
 
