@@ -20,8 +20,8 @@ from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
 from rldrill.export.packed import packed
+from rldrill.export.with_files import WithFiles
 from rldrill.export.words import page_words, typing_note
-from rldrill.export.writer import WithFiles
 from rldrill.problems.notations import with_mark
 from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.render.mathematics.unicode import inline

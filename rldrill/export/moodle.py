@@ -11,8 +11,8 @@ from rldrill.exam.choices import Language
 from rldrill.exam.exam import Exam, Head, points_of
 from rldrill.exercise import Exercise
 from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, label, told_apart, wrong_answers
+from rldrill.export.with_files import WithFiles, matrix_rows
 from rldrill.export.words import note, page_words
-from rldrill.export.writer import WithFiles, matrix_rows
 from rldrill.problems.parts import Choice, Matrix, Part
 from rldrill.render.mathematics.unicode import inline
 

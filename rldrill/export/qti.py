@@ -11,8 +11,8 @@ from rldrill.exam.exam import Exam, Head, Version, points_of
 from rldrill.exercise import Exercise
 from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, label, told_apart, wrong_answers
 from rldrill.export.packed import packed
+from rldrill.export.with_files import WithFiles, matrix_rows
 from rldrill.export.words import note
-from rldrill.export.writer import WithFiles, matrix_rows
 from rldrill.problems.document import Equation, Table
 from rldrill.problems.mathematics import Math
 from rldrill.problems.parts import Choice, Matrix, Part, YesNo
