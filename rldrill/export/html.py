@@ -119,7 +119,7 @@ def part_form(language: Language, number: int, exercise: Exercise, part: Part, *
     return (
         f'<{tag} class="part" id="{name}"{extra}>\n'
         f'<fieldset><legend class="ask">{label(exercise, part)}{HTML.text(part.ask)}{worth}</legend>\n'
-        f"{_boxes(said, part, cells(exercise, part, language))}</fieldset>\n{judged}{helps}</{tag}>\n"
+        f"{_boxes(language, part, cells(exercise, part, language))}</fieldset>\n{judged}{helps}</{tag}>\n"
     )
 
 
@@ -131,19 +131,19 @@ def _helps(said: PageWords, exercise: Exercise, part: Part) -> str:
     )
 
 
-def _boxes(said: PageWords, part: Part, asked: Sequence[Cell]) -> str:
+def _boxes(language: Language, part: Part, asked: Sequence[Cell]) -> str:
     if isinstance(part.kind, Choice | YesNo):
         (only,) = asked
         assert isinstance(only, Word)
         options = "".join(_option(part, value, text) for value, text in only.options.items())
         return f'<div class="options">{options}</div>\n'
     if isinstance(part.kind, Matrix):
-        boxes = "".join(_box(said, index, cell) for index, cell in enumerate(asked))
+        boxes = "".join(_box(language, index, cell) for index, cell in enumerate(asked))
         return (
             f'<div class="cells matrix" style="grid-template-columns: repeat({part.kind.columns}, minmax(3.2em, 6em))">'
             f"{boxes}</div>\n"
         )
-    boxes = "".join(f"<label>{_left(cell)}{_box(said, i, cell)}</label>" for i, cell in enumerate(asked))
+    boxes = "".join(f"<label>{_left(cell)}{_box(language, i, cell)}</label>" for i, cell in enumerate(asked))
     return f'<div class="cells{" single" if len(asked) == 1 else ""}">{boxes}</div>\n'
 
 
@@ -159,8 +159,8 @@ def _option(part: Part, value: str, text: str) -> str:
     )
 
 
-def _box(said: PageWords, index: int, cell: Cell) -> str:
-    called = escape(cell.name or said.answer)
+def _box(language: Language, index: int, cell: Cell) -> str:
+    called = escape(cell.name or words(language).answer)
     if isinstance(cell, Quantity):
         return (
             f'<input type="text" name="cell-{index}" data-cell="{index}" aria-label="{called}" autocomplete="off" '
@@ -169,5 +169,5 @@ def _box(said: PageWords, index: int, cell: Cell) -> str:
     options = "".join(f"<option>{escape(option)}</option>" for option in cell.options)
     return (
         f'<select name="cell-{index}" data-cell="{index}" aria-label="{called}">'
-        f'<option value="">{said.choose}</option>{options}</select>'
+        f'<option value="">{page_words(language).choose}</option>{options}</select>'
     )
