@@ -53,7 +53,7 @@ def _row(cells: list[int], texts: dict[int, str]) -> str:
     return "".join(line).rstrip()
 
 
-def _line(start: Point, end: Point, mark: Callable[[Point], None], *, dashed: bool = False) -> None:
+def _line(start: Point, end: Point, mark: Callable[[Point], None], *, dashed: bool) -> None:
     steps = max(1, ceil(hypot(end[0] - start[0], end[1] - start[1]) / _DOT * 1.5))
     for step in range(steps + 1):
         if not dashed or step % 6 < 3:
