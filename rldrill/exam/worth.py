@@ -24,7 +24,7 @@ def worth(slots: Sequence[Slot], exercises: Sequence[Exercise], total: int | Non
     result = [_set(slot, exercise) for slot, exercise in zip(slots, exercises, strict=True)]
     if total is None:
         return [given or points(exercise.solution) for given, exercise in zip(result, exercises, strict=True)]
-    spent = sum(sum(given.values()) for given in result if given)
+    spent = sum(sum(given.values()) for given in result)
     waiting = [
         (index, label, minutes_of(exercise.solution, label))
         for index, (given, exercise) in enumerate(zip(result, exercises, strict=True))

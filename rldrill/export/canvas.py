@@ -89,7 +89,6 @@ def _resource(
 def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Element:
     """What Canvas keeps of a quiz beside its questions."""
     quiz = Element("quiz", {"identifier": name, "xmlns": _META})
-    attempts = {"allowed_attempts": "-1"} if practice else {"allowed_attempts": "1"}
     note = typing_note(exam.head, reads="language")
     limit = {} if exam.head.duration is None else {"time_limit": str(exam.head.duration)}
     said = {
@@ -100,7 +99,7 @@ def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Ele
         "points_possible": str(version.points),
         "show_correct_answers": "true" if practice else "false",
         "available": "false",
-        **attempts,
+        "allowed_attempts": "-1" if practice else "1",
         **limit,
     }
     for tag, text in said.items():

@@ -38,7 +38,7 @@ def _sections(progress: Progress) -> Iterator[tuple[RenderableType, ...]]:
     yield (
         words(
             f"{counted(progress.answers, 'answer')} on {counted(len(progress.days), 'day')}; "
-            f"{_percent(right, parts)} of the questions right at the first try"
+            f"{round(100 * right / parts)} % of the questions right at the first try"
             + (f"; {progress.streak} days in a row." if progress.streak > 1 else ".")
         ),
     )
@@ -84,7 +84,7 @@ def _shares(progress: Progress) -> Table:
 def _days(days: Iterable[Day]) -> Table:
     table = _plain_table(False, False, True, True, True, bar=1)
     for day in days:
-        share = day.right / day.parts if day.parts else 0.0
+        share = day.right / day.parts
         answers = counted(day.answers, "answer")
         table.add_row(
             f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, f"{_time(day.seconds)} each"
@@ -126,10 +126,6 @@ def _due(due: tuple[int, ...]) -> str:
     if not any(due):
         return "Nothing in the next days; new problems wait."
     return f"{now} now, {tomorrow} more tomorrow, {sum(later)} more in the days after, up to a week."
-
-
-def _percent(part: int, whole: int) -> str:
-    return f"{round(100 * part / whole)} %" if whole else "none"
 
 
 def _time(seconds: float) -> str:

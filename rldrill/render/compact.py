@@ -171,8 +171,6 @@ def _rows(units: Sequence[_Unit], width: int) -> Iterator[Lines]:
 
 
 def _row(units: Sequence[_Unit], width: int) -> Lines:
-    if len(units) == 1:
-        return units[0].lines(width)
     spare = (width - sum(unit.narrowest + _BETWEEN for unit in units) + _BETWEEN) // len(units)
     return _beside([unit.lines(unit.narrowest + spare) for unit in units])
 
