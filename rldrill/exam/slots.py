@@ -183,7 +183,7 @@ def _filled(candidates: Sequence[Header], entry: Entry, draws: Draws, time: int,
     if entry.count is not None:
         return list(islice(endless, entry.count))
     result: list[Slot] = []
-    for slot in islice(endless, max(100, 2 * len(candidates))):
+    for slot in islice(endless, max(MOST_PROBLEMS, 2 * len(candidates))):
         if slot.minutes <= time or not result:
             result.append(slot)
             time -= slot.minutes

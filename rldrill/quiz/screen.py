@@ -28,7 +28,7 @@ from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder, utc_now
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import how_to_type
-from rldrill.render.compact import WIDEST, Compact
+from rldrill.render.compact import Compact
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
@@ -248,7 +248,7 @@ class Screen:
             Text(f"  {how_to_type(first.kind, exercise.problem.parameters)}"),
             *map(Text, (*exercise.notes, *(self._keys or (SHORT_KEYS,)))),
         )
-        options = self._console.options.update(width=min(self._console.width, WIDEST))
+        options = self._console.options.update(width=self._display.width)
         taken = sum(len(self._console.render_lines(other, options)) for other in others)
         self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
         self._print()
