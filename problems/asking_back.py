@@ -59,7 +59,7 @@ class AskingBack(ActionUpdates):
         if self.outcome and self.outcome[:2] not in self.updated:
             pair = f"({self.outcome.state}, {self.outcome.action})"
             raise ValueError(f"outcome: {pair} is not updated, so nothing follows from it; name one that is")
-        if self.outcome and len(super().parameters()) != 1:
+        if self.outcome and len(self.left_open) != 1:
             raise ValueError("outcome: leave one number open, such as alpha, which is asked for then")
         return self
 
@@ -70,12 +70,12 @@ class AskingBack(ActionUpdates):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters that answers are expressions in: none, where what is left open is asked for."""
-        return () if self.outcome else super().parameters()
+        return () if self.outcome else self.left_open
 
     @property
     def asked_for(self) -> str:
         """The parameter that is asked for."""
-        return "".join(super().parameters())
+        return "".join(self.left_open)
 
 
 class BackRun(AskingBack, ActionRun):

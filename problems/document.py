@@ -102,3 +102,8 @@ def pieces(text: str) -> list[str | Math]:
 def joined(items: list[str]) -> str:
     """A list in words: ``a``, ``a and b``, ``a, b and c``."""
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
+
+
+def counted(number: int, what: str) -> str:
+    """A number of things: ``1 part``, ``2 parts``."""
+    return f"{number} {what}{'' if number == 1 else 's'}"

@@ -95,8 +95,6 @@ class Draws:
     def shares(self, parts: int, denominators: Sequence[int]) -> tuple[tuple[int, ...], int]:
         """The same in whole numbers: how many parts of the whole each gets, and how many there are."""
         whole = self.choice([number for number in denominators if number >= parts])
-        if whole == 1:
-            return (1,), 1
         edges = (0, *sorted(self._shuffled(range(1, whole), parts - 1)), whole)
         return tuple(map(sub, edges[1:], edges)), whole
 

@@ -25,3 +25,8 @@ class NothingToGrade(UserError):
 
 class BrokenFamily(Exception):
     """A family that is not complete, or contradicts itself; the sentence tells its author what to do."""
+
+
+def reason(error: OSError) -> str:
+    """What the system says of an error, within a sentence."""
+    return (error.strerror or str(error)).lower()

@@ -69,12 +69,12 @@ class Givens(BaseModel):
         return copied
 
     def parameters(self) -> tuple[str, ...]:
-        """The parameters left open anywhere in the givens."""
-        return self._left_open
+        """The parameters that an answer may contain: those left open, unless they are asked for."""
+        return self.left_open
 
     @cached_property
-    def _left_open(self) -> tuple[str, ...]:
-        """The same; what mistakes apply to, the question and the answers ask for them again and again."""
+    def left_open(self) -> tuple[str, ...]:
+        """The parameters left open anywhere; mistakes, the question and the answers ask for them again and again."""
         found: dict[str, None] = {}
         _collect_parameters(_inside(self), found)
         return tuple(found)
@@ -82,6 +82,14 @@ class Givens(BaseModel):
     def terminal_states(self) -> tuple[str, ...]:
         """The terminal states anywhere in the givens."""
         return tuple(dict.fromkeys(_ends(self)))
+
+
+class AskedFor(Givens):
+    """Givens of which what is left open is asked for: no answer is an expression in it."""
+
+    def parameters(self) -> tuple[str, ...]:
+        """None that an answer may contain."""
+        return ()
 
 
 def _ends(givens: BaseModel) -> Iterator[str]:

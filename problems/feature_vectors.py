@@ -20,10 +20,10 @@ def check_features(features: Mapping[str, tuple[Fraction, ...]], states: Iterabl
     """
     needed = tuple(dict.fromkeys(states))
     check_keys(features, needed, "the feature vector", needed=needed)
-    check_lengths(features, "features")
+    check_lengths(features)
 
 
-def check_lengths(vectors: Mapping[str, Sequence[object]], what: str) -> None:
+def check_lengths(vectors: Mapping[str, Sequence[object]]) -> None:
     """Demand vectors of one length, with one component at least.
 
     Raises:
@@ -32,13 +32,13 @@ def check_lengths(vectors: Mapping[str, Sequence[object]], what: str) -> None:
     lengths = {len(vector) for vector in vectors.values()}
     if len(lengths) > 1 or 0 in lengths:
         told = ", ".join(f"{name!r} has {len(vector)}" for name, vector in vectors.items())
-        raise ValueError(f"{what}: all must have the same number of components, one at least, but {told}")
+        raise ValueError(f"features: all must have the same number of components, one at least, but {told}")
 
 
-def draw_features(rng: Draws, states: tuple[str, ...], count: int, most: int) -> dict[str, tuple[Fraction, ...]]:
-    """Whole numbers from 0 on; no state's features are a multiple of another's, and no feature is one of another."""
+def draw_features(rng: Draws, states: tuple[str, ...]) -> dict[str, tuple[Fraction, ...]]:
+    """Two whole numbers from 0 to 4; no state's are a multiple of another's, and no feature is one of another."""
     while True:
-        columns = [tuple([rng.below(most + 1) for _ in states]) for _ in range(count)]
+        columns = [tuple([rng.below(5) for _ in states]) for _ in range(2)]
         rows = list(zip(*columns, strict=True))
         if all(len(set(column)) > 1 for column in columns) and apart(rows) and apart(columns):
             return {state: tuple(map(Fraction, row)) for state, row in zip(states, rows, strict=True)}

@@ -3,6 +3,8 @@
 Labels are texts, with mathematics between ``$`` signs.
 """
 
+from collections.abc import Iterator
+from itertools import zip_longest
 from typing import Literal
 
 from msgspec import Struct
@@ -37,6 +39,21 @@ class StateDiagram(Picture, Struct, frozen=True):
     arrows: tuple[Arrow, ...]
 
 
+class Moment(Struct, frozen=True):
+    """A state of a run with the label above it, and the action and the reward behind it, None where there is none."""
+
+    label: str
+    state: str
+    action: str | None
+    reward: str | None
+    last: bool
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether an arrow leaves the state."""
+        return not self.last or self.action is not None
+
+
 class Timeline(Picture, Struct, frozen=True):
     """A run over time: states, and between them actions (if any) and rewards, all as they are labelled.
 
@@ -49,6 +66,11 @@ class Timeline(Picture, Struct, frozen=True):
     actions: tuple[str, ...]
     rewards: tuple[str, ...]
     ended: bool = False
+
+    def moments(self) -> Iterator[Moment]:
+        """The run from its beginning."""
+        for number, each in enumerate(zip_longest(self.times, self.states, self.actions, self.rewards), 1):
+            yield Moment(*each, last=number == len(self.states))
 
 
 class GridPicture(Picture, Struct, frozen=True):

@@ -28,7 +28,7 @@ class Reversible(Givens):
     @property
     def letters(self) -> tuple[str, ...]:
         """The letters left open, whether answers are expressions in them or they are asked for."""
-        return super().parameters()
+        return self.left_open
 
     @property
     def letter(self) -> str:

@@ -119,7 +119,7 @@ def told_apart(run: Trajectory, values: Mapping[str, Fraction]) -> bool:
     return len({*values.values()}) == len(values) and all(one != other for one, other in pairwise(run.rewards))
 
 
-def draw_reward(rng: Draws, old: Fraction, after: Fraction, alpha: Fraction, unit: int | None = None) -> Fraction:
+def draw_reward(rng: Draws, old: Fraction, after: Fraction, alpha: Fraction, unit: int | None) -> Fraction:
     """A reward that moves a value towards it and what comes after it: to a multiple of the unit, if there is one."""
 
     start, still = old + alpha * (after - old), plain(old - after)

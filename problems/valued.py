@@ -84,15 +84,14 @@ def draw_valued(
     return Valued(draw_worth(rng, setting, shape, gamma, values, worths, sure), policy, values, worths)
 
 
-def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, denominators: tuple[int, ...]) -> Mixed:
-    """Draw a model in which a policy that mixes its actions has whole values.
+def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction) -> Mixed:
+    """Draw a model in which a policy that mixes its actions, by halves or quarters, has whole values.
 
     Args:
         rng: the draws.
         setting: the world.
         shape: how large the model is; its ``reward`` is not used.
         gamma: one of ``UNITS``.
-        denominators: of the policy's probabilities; each action has one above 0.
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
     policy: dict[str, dict[str, Scalar]] = {}
@@ -102,7 +101,7 @@ def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, deno
         numbers = None
         while numbers is None:  # else actions would be worth the same, and their probabilities would not matter
             one = (Fraction(1),), [value]
-            chances, numbers = draw_averaging(rng, len(actions), denominators, value) if len(actions) > 1 else one
+            chances, numbers = draw_averaging(rng, len(actions), (2, 4), value) if len(actions) > 1 else one
         policy[state] = dict(zip(actions, chances, strict=True))
         worths |= {(state, action): number for action, number in zip(actions, numbers, strict=True)}
     return Mixed(draw_worth(rng, setting, shape, gamma, values, worths), policy, values)

@@ -10,7 +10,7 @@ from typing import IO
 
 import typer
 
-from rldrill.problems.errors import BrokenFamily, UserError
+from rldrill.problems.errors import BrokenFamily, UserError, reason
 
 INTERNAL_ERROR = 70
 
@@ -68,7 +68,7 @@ def main() -> None:
         if error.filename is None and error.errno is None:
             raise
         sys.stdout = _nowhere("w")  # what cannot be written is not tried again
-        fail(f"{error.filename or 'The system'}: {(error.strerror or str(error)).lower()}.", 3)
+        fail(f"{error.filename or 'The system'}: {reason(error)}.", 3)
     except Exception as error:
         if "RLDRILL_DEBUG" in os.environ:
             raise

@@ -2,31 +2,41 @@
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
-def write_bytes_atomically(path: Path, data: bytes) -> None:
-    """Write a file whole or not at all, in a folder that is made if need be.
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """Where to write a file that appears when it is complete, or not at all, in a folder that is made if need be.
 
-    What stood there before stays until the new file is complete.
+    What stood there before stays until then.
 
     Raises:
         OSError: the folder cannot be written to, or the disk is full; ``filename`` is set.
     """
-    temporary: str | None = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.")
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        Path(temporary).chmod(_file_mode(path))
-        Path(temporary).replace(path)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.")
+        os.close(handle)
+        unfinished = Path(name)
+        try:
+            yield unfinished
+            unfinished.chmod(_file_mode(path))
+            unfinished.replace(path)
+        finally:
+            unfinished.unlink(missing_ok=True)
     except OSError as error:
-        if temporary is not None:
-            Path(temporary).unlink(missing_ok=True)
         raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+def write_bytes_atomically(path: Path, data: bytes) -> None:
+    """Write a file whole or not at all, as ``whole`` does; it lies on the disk then."""
+    with whole(path) as unfinished, unfinished.open("wb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
 
 
 def _file_mode(path: Path) -> int:

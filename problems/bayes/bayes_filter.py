@@ -30,7 +30,7 @@ from rldrill.problems.beliefs import (
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values
@@ -58,7 +58,7 @@ class Event(Givens):
         return self
 
 
-class Given(Givens):
+class Given(AskedFor):
     """A belief over states, where actions lead, what the sensor reads in every state, and the run.
 
     With ``outcome`` a probability is left open, and found from the belief after the first step. With ``ahead`` there is
@@ -127,15 +127,6 @@ class Given(Givens):
     def events(self) -> tuple[Event, ...]:
         """The steps of the run, and the one ahead."""
         return self.run if self.ahead is None else (*self.run, self.ahead)
-
-    @property
-    def left_open(self) -> tuple[str, ...]:
-        """The letters in what is given."""
-        return super().parameters()
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, where the letter is found."""
-        return ()
 
 
 _BOTH, _MOVE, _SENSE = (True, True), (True, False), (False, True)

@@ -71,11 +71,6 @@ class Given(Givens):
             raise ValueError(f"after: there is no outcome, or there are fewer than {self.after} actions before it")
         return self
 
-    @property
-    def left_open(self) -> tuple[str, ...]:
-        """The letters in what is given."""
-        return super().parameters()
-
     def parameters(self) -> tuple[str, ...]:
         """What an answer may contain: nothing, where the letter is found."""
         return self.left_open if self.outcome is None else ()

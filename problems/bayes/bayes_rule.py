@@ -68,11 +68,6 @@ class Given(Givens):
             raise ValueError("likelihood: a probability may be left open here only with an outcome to find it from")
         return self
 
-    @property
-    def left_open(self) -> tuple[str, ...]:
-        """The letters in what is given."""
-        return super().parameters()
-
     def parameters(self) -> tuple[str, ...]:
         """What an answer may contain: nothing, where the letter is found."""
         return self.left_open if self.outcome is None else ()

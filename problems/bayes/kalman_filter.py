@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Block, Equation, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
@@ -42,7 +42,7 @@ class Event(Givens):
     z: MatrixField | None = Field(default=None, description="The measurement after it, a column, if there is one.")
 
 
-class Given(Givens):
+class Given(AskedFor):
     """The first belief, the models A, B, C, the noises of motion and sensor (their covariances), and the steps.
 
     Vectors are matrices of one column; a plain number is a 1×1 matrix, and A, B and C are 1 unless given. Where no step
@@ -71,13 +71,9 @@ class Given(Givens):
         examples=["3/2"],
     )
 
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, for a variance left open is found."""
-        return ()
-
     @model_validator(mode="after")
     def _found(self) -> Self:
-        if (self.variance is None) == bool(super().parameters()):
+        if (self.variance is None) == bool(self.left_open):
             raise ValueError("variance: it goes with the variance of one noise that is left open, such as w")
         one = self.on_a_line and len(self.steps) == 1 and self.steps[0].z is not None
         if self.variance is not None and not one:

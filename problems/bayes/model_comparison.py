@@ -9,7 +9,7 @@ from rldrill.problems.beliefs import check_distribution
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values, YesNo
@@ -76,7 +76,7 @@ class CoinModel(Givens):
         return any(possible) or not self.certain
 
 
-class Given(Givens):
+class Given(AskedFor):
     """Some models of a coin with their priors, and how many heads and tails there were.
 
     With ``odds`` the prior is left open, and found for two models from these posterior odds.
@@ -92,15 +92,6 @@ class Given(Givens):
         description="The posterior odds of the first model, from which its prior is found, where that is q.",
         examples=[1],
     )
-
-    @property
-    def left_open(self) -> tuple[str, ...]:
-        """The letters in what is given."""
-        return super().parameters()
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, for the prior is found."""
-        return ()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

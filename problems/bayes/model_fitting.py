@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Numbers, Part
 
@@ -90,7 +90,7 @@ class Line(Givens):
         return self
 
 
-class Given(Givens):
+class Given(AskedFor):
     """One of the three: tosses of a coin, a sample, or points for a line."""
 
     coin: Coin | None = Field(default=None, description="Tosses of a coin.")
@@ -102,10 +102,6 @@ class Given(Givens):
         if sum(model is not None for model in (self.coin, self.sample, self.line)) != 1:
             raise ValueError("give one of coin, sample and line")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, for a variance left open is found."""
-        return ()
 
     @property
     def has_prior(self) -> bool:

@@ -111,7 +111,7 @@ def draw(level: int, rng: Draws) -> Claimed | Sought:
     if optimal:
         mdp, _, values, _ = draw_valued(rng, setting, shape, gamma, (-4, -1), forked="own")
     elif level == 2:
-        mdp, policy, values = draw_mixed(rng, setting, shape, gamma, (2, 4))
+        mdp, policy, values = draw_mixed(rng, setting, shape, gamma)
     else:
         values = draw_values(rng, setting.states[:2], gamma)
         mdp = draw_worth(rng, setting, shape, gamma, values, {(s, ALONE): value for s, value in values.items()})

@@ -28,7 +28,7 @@ def draw(level: int, rng: Draws) -> Given:
         mdp, chosen, *_ = draw_valued(rng, setting, Shape(states=2, actions=2, branches=1), gamma, (-4, 4))
         return Given(mdp=mdp, policy=deterministic(chosen), gamma=gamma)
     if level == 2:
-        mixed = draw_mixed(rng, setting, Shape(states=2, actions=2, branches=2, denominators=(2,)), gamma, (2, 4))
+        mixed = draw_mixed(rng, setting, Shape(states=2, actions=2, branches=2, denominators=(2,)), gamma)
         return Given(mdp=mixed.mdp, policy=mixed.policy, gamma=gamma)
     shape = Shape(states=2, actions=2, branches=2, denominators=(2,))
     gamma, (onward, back) = rng.fraction("1/2", "2/3"), setting.actions[:2]

@@ -92,7 +92,7 @@ def draw(level: int, rng: Draws) -> Given:
         return _recurrent(rng, draw_roaming(rng))
     if form == "policy":
         shape = Shape(states=2, actions=2, branches=2, denominators=(2,))
-        mdp, policy, _ = draw_mixed(rng, setting, shape, gamma, (2, 4))
+        mdp, policy, _ = draw_mixed(rng, setting, shape, gamma)
         return Given(mdp=mdp, policy=policy, gamma=gamma)
     shape = Shape(states=level + 1, actions=1, branches=2, denominators=(2,) if level == 1 else (2, 4))
     values = draw_values(rng, setting.states[: shape.states], gamma)

@@ -60,7 +60,7 @@ class Given(Givens):
     @property
     def unknown(self) -> tuple[str, ...]:
         """What is left open, to be found or for good."""
-        return super().parameters()
+        return self.left_open
 
     def parameters(self) -> tuple[str, ...]:
         """What answers are expressions in: nothing, where what is left open is asked for."""

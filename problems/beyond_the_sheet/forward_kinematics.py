@@ -9,7 +9,7 @@ from rldrill.problems.arms import PlanarArm, draw_angles, situation
 from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.parts import Number, Numbers, Part
 
@@ -28,7 +28,7 @@ class Base(Givens):
     )
 
 
-class Given(PlanarArm):
+class Given(AskedFor, PlanarArm):
     """An arm; what is asked for is where its end is, and how it points; with ``frames`` those of every link.
 
     With ``x``, that of the end point, the length of a link is left open and found from it; then y is asked for.
@@ -51,15 +51,11 @@ class Given(PlanarArm):
 
     @model_validator(mode="after")
     def _found(self) -> Self:
-        if (self.x is None) == bool(super().parameters()):
+        if (self.x is None) == bool(self.left_open):
             raise ValueError("x: it goes with a length that is left open, such as w")
         if self.x is not None and (self.frames or self.base is not None):
             raise ValueError("x: a length is found for an arm at the origin, without frames")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, for a length left open is found."""
-        return ()
 
     @property
     def asked(self) -> range:

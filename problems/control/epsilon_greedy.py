@@ -53,7 +53,7 @@ class Given(Givens):
     def _follows(self) -> Self:
         if self.taken and self.state_value is not None:
             raise ValueError("give either taken or state_value")
-        if self.backwards and not super().parameters():
+        if self.backwards and not self.left_open:
             raise ValueError("epsilon: leave it open, for it is asked for")
         if self.taken and self.taken.action not in self.values:
             raise ValueError(f"taken: {self.taken.action!r} has no value; add it")
@@ -68,7 +68,7 @@ class Given(Givens):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters that answers are expressions in: none where ε is asked for."""
-        return () if self.backwards else super().parameters()
+        return () if self.backwards else self.left_open
 
     @property
     def best(self) -> tuple[str, ...]:

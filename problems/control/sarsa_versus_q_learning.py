@@ -94,7 +94,7 @@ class Given(ActionRun):
 
     def parameters(self) -> tuple[str, ...]:
         """The letters that answers are expressions in: not the step size that is asked for."""
-        left_open = super().parameters()
+        left_open = self.left_open
         return left_open if self.known is None else tuple(name for name in left_open if name != "alpha")
 
 

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Dynamics, Named, Names, Transition, transitions_table
 from rldrill.problems.parts import Number, Part, Policy, Values
@@ -21,7 +21,7 @@ SOURCE = "Sutton & Barto 2018, section 3.6"
 REVISION = 5
 
 
-class Given(Givens):
+class Given(AskedFor):
     """The optimal action values, what the actions do whose values are missing, the discount, and where it ends.
 
     Where a missing value's reward is left open, it is asked from which reward on the action is best.
@@ -40,14 +40,14 @@ class Given(Givens):
         if self.gamma is None:
             raise ValueError("gamma: the discount is needed to find the missing values; add it")
         open_rows = [row[:2] for row in self.missing.transitions if isinstance(row.reward, Parameter)]
-        if super().parameters() and (len(open_rows) != 1 or open_rows[0] != self.gaps[-1]):
+        if self.left_open and (len(open_rows) != 1 or open_rows[0] != self.gaps[-1]):
             raise ValueError("missing: only one reward of the last action there can be left open")
         for state, action in self.missing.pairs:
             if state not in self.values:
                 raise ValueError(f"values: {state!r} does not occur; give it there, if need be as an empty table")
             if action in self.values[state]:
                 raise ValueError(f"missing: {action!r} in {state!r} has a value already; take one of them out")
-        if super().parameters() and len(self.values[open_rows[0][0]]) == 0:
+        if self.left_open and len(self.values[open_rows[0][0]]) == 0:
             raise ValueError("values: another action of the state is needed, to compare what is left open with")
         self._check_rows()
         for row in self.missing.transitions:
@@ -69,11 +69,7 @@ class Given(Givens):
     @property
     def tied(self) -> tuple[str, str] | None:
         """The state and action whose reward is left open."""
-        return self.gaps[-1] if super().parameters() else None
-
-    def parameters(self) -> tuple[str, ...]:
-        """What answers are expressions in: nothing, because what is left open is asked for."""
-        return ()
+        return self.gaps[-1] if self.left_open else None
 
     @cached_property
     def actions(self) -> dict[str, tuple[str, ...]]:

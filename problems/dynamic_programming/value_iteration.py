@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, Probability, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, Named, Transition, check_state_values, model_blocks, values_table
 from rldrill.problems.parts import Choice, Number, Part, Policy, Values
@@ -25,7 +25,7 @@ REVISION = 8
 _FINEST = 5
 
 
-class Swept(Sweeps):
+class Swept(AskedFor, Sweeps):
     """A model, the discount, how many sweeps, and the values to start from (0 where none are given).
 
     With a state for a tie the discount is left open: it is asked for which one two actions there are both greedy.
@@ -46,7 +46,7 @@ class Swept(Sweeps):
 
     @model_validator(mode="after")
     def _tied(self) -> Self:
-        open_ = super().parameters()
+        open_ = self.left_open
         if self.tie is None and open_:
             raise ValueError(f"{open_[0]} is left open, so no action can be called greedy; give numbers, or a tie")
         if self.tie is not None and (open_ != ("gamma",) or self.sweeps != 1 or self.start or self.action_values):
@@ -54,10 +54,6 @@ class Swept(Sweeps):
         if self.tie is not None and len(self.mdp.actions.get(self.tie, ())) != 2:
             raise ValueError(f"tie: {self.tie!r} must be a state with two actions")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """What answers are expressions in: nothing, because the discount is asked for where it is left open."""
-        return ()
 
     @model_validator(mode="after")
     def _from_zero(self) -> Self:

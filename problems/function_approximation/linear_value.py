@@ -18,7 +18,7 @@ from rldrill.problems.centres import (
 from rldrill.problems.document import Document, Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Question
 from rldrill.problems.features import FeatureVector, weights
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, Names
@@ -49,7 +49,7 @@ class Bumps(Centred):
         return self
 
 
-class Given(Givens):
+class Given(AskedFor):
     """The weights, block by block; the actions in the order of the blocks; and the features of the state.
 
     The features are given as they are, or as those of a state by piecewise linear basis functions. One weight may be
@@ -110,10 +110,6 @@ class Given(Givens):
         """The action with the weight w, if there is one."""
         places = [place for place, weight in enumerate(self.theta) if isinstance(weight, Parameter)]
         return self.actions[places[0] // self.size] if places else None
-
-    def parameters(self) -> tuple[str, ...]:
-        """None: w is found, not left open."""
-        return ()
 
 
 #: What somebody does whose state is a place.

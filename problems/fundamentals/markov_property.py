@@ -10,7 +10,7 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Open, Parameter, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Part, Values, YesNo
@@ -30,7 +30,7 @@ class Seen(NamedTuple):
     weight: Open
 
 
-class Given(Givens):
+class Given(AskedFor):
     """The table, and the next state whose probabilities are asked for.
 
     The weights are counts, or joint probabilities if they sum to 1; what is not in the table was never seen. A count
@@ -83,10 +83,6 @@ class Given(Givens):
     def numbers(self) -> tuple[Fraction, ...]:
         """The weights that are known."""
         return tuple(row.weight for row in self.table if isinstance(row.weight, Fraction))
-
-    def parameters(self) -> tuple[str, ...]:
-        """None that an answer may contain: a count left open is asked for."""
-        return ()
 
     @property
     def probabilities(self) -> bool:

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Discounts, Exact, Open, Parameter, Scalar, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Question
 from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import RETURN_DEFINED, check_one_open, discount, in_open
@@ -50,7 +50,7 @@ class Single(Reversible):
         return self
 
 
-class Compared(Givens):
+class Compared(AskedFor):
     """The rewards of two episodes, and their discount; one left open is asked for, so that both are equally good."""
 
     rewards: tuple[Exact, ...] = Field(min_length=1, max_length=100, description="The rewards of the first episode.")
@@ -61,10 +61,6 @@ class Compared(Givens):
     def sought(self) -> bool:
         """Whether the discount at which both are equally good is asked for."""
         return isinstance(self.gamma, Parameter)
-
-    def parameters(self) -> tuple[str, ...]:
-        """None that an answer may contain: a discount left open is asked for."""
-        return ()
 
 
 def _kind(given: object) -> str:

@@ -50,7 +50,7 @@ class Given(Givens):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         later = {f"policy {number}": mu for number, mu in enumerate(self.policies, 1)}
-        check_lengths({"expert": self.expert, "first": self.first} | later | (self.candidates or {}), "features")
+        check_lengths({"expert": self.expert, "first": self.first} | later | (self.candidates or {}))
         point = self.first
         for number, mu in enumerate(self.policies, 1):
             if mu == point:

@@ -39,7 +39,7 @@ class Given(Givens):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if self.estimate is not None and (not super().parameters() or self.size < 2):
+        if self.estimate is not None and (not self.left_open or self.size < 2):
             raise ValueError("estimate: leave gamma open, for it is asked for, and give two features at least")
         if not all(self.trajectories):
             raise ValueError("trajectories: one of them has no states; add them")
@@ -57,7 +57,7 @@ class Given(Givens):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters that answers are expressions in: none where the discount is asked for."""
-        return () if self.estimate is not None else super().parameters()
+        return () if self.estimate is not None else self.left_open
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -69,7 +69,7 @@ def draw(level: int, rng: Draws) -> Given:
         return _back(rng, states)
     while True:
         runs = _distinct_runs(rng, states, count, length)
-        features = draw_features(rng, states, 2, 4)
+        features = draw_features(rng, states)
         if {state for run in runs for state in run} == set(states) and _different(runs, features):
             break
     return Given(
@@ -103,7 +103,7 @@ def _back(rng: Draws, states: tuple[str, ...]) -> Given:
     count = rng.choice((2, 3, 4))
     runs = [run[: 1 + (index > 0 or rng.chance(Fraction(1, 2)))]
             for index, run in enumerate(_distinct_runs(rng, states, count, 2))]  # fmt: skip
-    features = draw_features(rng, states, 2, 4)
+    features = draw_features(rng, states)
     gamma = rng.fraction("1/2", "1/3", "2/3", "1/4", "3/4", "2/5", "4/5")
     first, later = (sum((features[run[time]][0] for run in runs if len(run) > time), Fraction(0)) for time in (0, 1))
     if (

@@ -51,7 +51,7 @@ class Given(Givens):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if self.matched is not None and (len(super().parameters()) != 1 or self.size > 1):
+        if self.matched is not None and (len(self.left_open) != 1 or self.size > 1):
             raise ValueError("matched: leave one number open, which is asked for, and give a single feature")
         for state in self.terminal:
             if state in self.features:
@@ -67,12 +67,12 @@ class Given(Givens):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters that answers are expressions in: none, where what is left open is asked for."""
-        return () if self.matched is not None else super().parameters()
+        return () if self.matched is not None else self.left_open
 
     @property
     def asked_for(self) -> str:
         """The parameter that is asked for."""
-        return "".join(super().parameters())
+        return "".join(self.left_open)
 
     @property
     def states(self) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, dot, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.features import MOST_FEATURES, FeatureVector
 from rldrill.problems.fractions import Fraction
@@ -38,7 +38,7 @@ class Rival(Givens):
         return self
 
 
-class Given(Givens):
+class Given(AskedFor):
     """The weights of the reward, the expert's feature expectations, and the other policies."""
 
     w: tuple[Open, ...] = Field(
@@ -58,10 +58,8 @@ class Given(Givens):
     def _fits(self) -> Self:
         if EXPERT in self.policies:
             raise ValueError(f"policies: {EXPERT!r} is the name of the expert's own policy; rename it")
-        check_lengths(
-            {"w": self.w, EXPERT: self.expert} | {name: rival.mu for name, rival in self.policies.items()}, "features"
-        )
-        if len(super().parameters()) > 1 or len([weight for weight in self.w if isinstance(weight, Parameter)]) > 1:
+        check_lengths({"w": self.w, EXPERT: self.expert} | {name: rival.mu for name, rival in self.policies.items()})
+        if len(self.left_open) > 1 or len([weight for weight in self.w if isinstance(weight, Parameter)]) > 1:
             raise ValueError("w: leave one weight open at most")
         if self.asked_for:
             place = self.w.index(self.asked_for)
@@ -72,10 +70,6 @@ class Given(Givens):
                         "or its constraint does not hold from some weight on"
                     )
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """The parameters that answers are expressions in: none, for a weight that is left open is asked for."""
-        return ()
 
     @property
     def asked_for(self) -> Parameter | None:

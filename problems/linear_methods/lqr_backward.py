@@ -40,11 +40,11 @@ class Given(LinearQuadratic, Conventional):
 
     def parameters(self) -> tuple[str, ...]:
         """What an answer may contain: nothing, where the price is found."""
-        return super().parameters() if self.action is None else ()
+        return self.left_open if self.action is None else ()
 
     @model_validator(mode="after")
     def _one_step(self) -> Self:
-        if self.action is not None and (self.horizon > 1 or self.actions > 1 or not super().parameters()):
+        if self.action is not None and (self.horizon > 1 or self.actions > 1 or not self.left_open):
             raise ValueError(
                 "action: it goes with the horizon 1, one action, and a price that R leaves open, such as rho"
             )

@@ -54,14 +54,9 @@ class Given(Conventional):
         examples=["-3/2"],
     )
 
-    @property
-    def left_open(self) -> bool:
-        """Whether the price of the action is a letter."""
-        return any(isinstance(entry, Parameter) for line in self.R for entry in line)
-
     def parameters(self) -> tuple[str, ...]:
         """What an answer may contain: nothing, where the price is found."""
-        return super().parameters() if self.action is None else ()
+        return self.left_open if self.action is None else ()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Scalar, shown
-from rldrill.problems.family import Question
+from rldrill.problems.family import AskedFor, Question
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.linear_quadratic import Conventional, check_cross, quadratic
 from rldrill.problems.mathematics import mathematics
@@ -32,7 +32,7 @@ REVISION = 8
 _LARGEST = 6
 
 
-class Given(Conventional):
+class Given(AskedFor, Conventional):
     """A (n×n), B (n×m), Q (n×n) and R (m×m), the same at all times; n is at most 6.
 
     Closed forms are found for a scalar system and for one that falls apart into scalar ones; others are
@@ -53,10 +53,6 @@ class Given(Conventional):
         description="A − BL of a scalar system, from which the price is found that Q or R leaves open as rho.",
         examples=["1/2"],
     )
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, for the price is found."""
-        return ()
 
     @property
     def unknown(self) -> str:

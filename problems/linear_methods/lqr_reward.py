@@ -39,11 +39,11 @@ class Given(LinearQuadratic):
 
     def parameters(self) -> tuple[str, ...]:
         """What an answer may contain: nothing, where the price is found."""
-        return super().parameters() if self.total is None else ()
+        return self.left_open if self.total is None else ()
 
     @model_validator(mode="after")
     def _gains_fit(self) -> Self:
-        if self.total is not None and not super().parameters():
+        if self.total is not None and not self.left_open:
             raise ValueError("total: it goes with a price that R leaves open, such as rho")
         count = self.horizon + self.plain
         if len(self.L) not in (1, count):

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, dot, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import AskedFor, Question
 from rldrill.problems.features import ActionFeatures, action_features_table, check_action_features, weights
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part, Policy, Values
@@ -19,7 +19,7 @@ SOURCE = "Sutton & Barto 2018, section 10.1"
 REVISION = 6
 
 
-class Given(Givens):
+class Given(AskedFor):
     """The weights θ, and the features of every action in some states.
 
     One weight may be the letter w: then it is asked where the greedy action of each state changes with it, and which
@@ -47,10 +47,6 @@ class Given(Givens):
     def numbers(self) -> tuple[Fraction, ...]:
         """The weights, w with the number at which the policy is asked for."""
         return tuple((self.at or Fraction(0)) if isinstance(weight, Parameter) else weight for weight in self.theta)
-
-    def parameters(self) -> tuple[str, ...]:
-        """None: w is found, not left open."""
-        return ()
 
 
 def draw(level: int, rng: Draws) -> Given:

@@ -69,14 +69,14 @@ class Given(Givens):
         return self
 
     def _check_component(self, component: Component) -> None:
-        if self.action is None or super().parameters() != ("p",) or len(self.features) != 2:
+        if self.action is None or self.left_open != ("p",) or len(self.features) != 2:
             raise ValueError("component: give its action, one of two with the probabilities p and 1-p")
         if component.number not in range(1, len(self.features[self.action]) + 1):
             raise ValueError(f"component: there is no weight of the number {component.number}")
 
     def parameters(self) -> tuple[str, ...]:
         """None where p is found, not left open."""
-        return () if self.component else super().parameters()
+        return () if self.component else self.left_open
 
     @property
     def asked(self) -> tuple[str, ...]:

@@ -55,13 +55,13 @@ class Given(Givens):
                     raise ValueError(f"odds: {action!r} has no features; add them")
             if self.odds.times <= 0:
                 raise ValueError(f"odds: {self.odds.times} is not above 0; give one that is")
-            if super().parameters() != ("x",):
+            if self.left_open != ("x",):
                 raise ValueError("theta: with odds one weight must be ln x")
         return self
 
     def parameters(self) -> tuple[str, ...]:
         """None where x is found, not left open."""
-        return () if self.odds else super().parameters()
+        return () if self.odds else self.left_open
 
 
 def draw(level: int, rng: Draws) -> Given:

@@ -100,12 +100,11 @@ def audit(
             yield finding
 
 
-def audit_exam(path: str | Path, progress: Callable[[], None] = lambda: None) -> Iterator[Finding]:
+def audit_exam(path: str | Path) -> Iterator[Finding]:
     """Check every problem of a saved exam, made again from the givens that its manifest holds.
 
     Args:
         path: the manifest.
-        progress: called after every version.
 
     Raises:
         FileError: the manifest cannot be read, or a problem in it cannot be made.
@@ -118,7 +117,6 @@ def audit_exam(path: str | Path, progress: Callable[[], None] = lambda: None) ->
             key = (problem.family.name, problem.level or 0)
             finding = findings.setdefault(key, Finding(problem.family, problem.level or 0))
             examine(exercise.solution, finding, f"version {version.code}, problem {number}")
-        progress()
     yield from findings.values()
 
 

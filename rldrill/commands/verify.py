@@ -259,14 +259,14 @@ def _totals(path: Path) -> Path:
 
 def _put(text: str, path: Path, mode: str = "w") -> None:
     from rldrill.files import shown
-    from rldrill.problems.errors import FileError
+    from rldrill.problems.errors import FileError, reason
 
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open(mode, encoding="utf-8", newline="") as file:
             file.write(text)
     except OSError as error:
-        raise FileError(f"{shown(path)}: it cannot be written ({(error.strerror or str(error)).lower()}).") from None
+        raise FileError(f"{shown(path)}: it cannot be written ({reason(error)}).") from None
 
 
 def _print(report: "Report", feedback: str) -> None:

@@ -12,7 +12,7 @@ from rldrill.exam.choices import Paper, Solutions, Space
 
 if TYPE_CHECKING:
     from rldrill.exam.blueprint import Blueprint
-    from rldrill.exam.exam import Exam
+    from rldrill.exam.exam import Exam, Layout
     from rldrill.exam.fairness import Fairness
     from rldrill.exam.sealing import Secret
     from rldrill.export.formats import Format
@@ -173,17 +173,18 @@ def _from(source: Path, changes: dict[str, Any]) -> "Exam":
     from rldrill.exam.manifest import read_manifest
 
     exam = read_manifest(source)
-    _keep_sealed(exam, changes)
-    return replace(
-        exam, layout=replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
-    )
+    return replace(exam, layout=_layout(exam, changes))
 
 
-def _keep_sealed(exam: "Exam", changes: dict[str, Any]) -> None:
+def _layout(exam: "Exam", changes: dict[str, Any]) -> "Layout":
+    """How a saved exam is printed with these changes, where they are not None."""
+    from msgspec.structs import replace
+
     from rldrill.problems.errors import UsageError
 
     if exam.sealed and changes["ids"]:
         raise UsageError("The exam is sealed, and IDs would tell what is drawn; leave --ids out.")
+    return replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
 
 
 def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool = False, force: bool) -> list[str]:
@@ -275,7 +276,7 @@ def _reprinted(
 ) -> list[Path]:
     import json
 
-    from msgspec.structs import asdict, replace
+    from msgspec.structs import asdict
 
     from rldrill.exam.manifest import LARGEST, codes, read_exam, typst_of, written
     from rldrill.files import read_text
@@ -284,10 +285,9 @@ def _reprinted(
     from rldrill.problems.errors import UsageError
 
     exam, makes = read_exam(source)
-    _keep_sealed(exam, changes)
+    layout = _layout(exam, changes)
     personal, number = makes[0]().person is not None, len(makes)
     del makes  # hundreds of versions are not kept while they are typeset
-    layout = replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
     target = output or source.with_suffix(".pdf")
     check_output(target)
     files = Files(target, codes(source), layout, personal, only_keys)

@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from msgspec import Struct
+from msgspec.structs import asdict
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
@@ -23,8 +24,8 @@ class Fairness(Struct, frozen=True):
         shared_answers: how many answers to the same part of the same place a version has in common with another one.
         minutes: the least and the most expected minutes of a version.
         spread: how much more the longest version takes than the shortest, in parts of the shortest.
-        balance: how often each answer is right where there are only a few to choose from, as ``3 b: yes 15, no 15``.
         scarce: where answers are shared, how many different ones there are, as ``3 b: 10``.
+        balance: how often each answer is right where there are only a few to choose from, as ``3 b: yes 15, no 15``.
         families: the family and level of those places, by their number.
     """
 
@@ -32,8 +33,8 @@ class Fairness(Struct, frozen=True):
     shared_answers: int
     minutes: tuple[int, int]
     spread: float
-    balance: Mapping[str, Mapping[str, int]]
     scarce: Mapping[str, int]
+    balance: Mapping[str, Mapping[str, int]]
     families: Mapping[str, str]
 
     def says(self) -> str:
@@ -66,14 +67,9 @@ class Fairness(Struct, frozen=True):
 
     def data(self) -> dict[str, object]:
         """The figures as JSON has them."""
-        return {
-            "shared_problems": self.shared_problems,
-            "shared_answers": self.shared_answers,
-            "minutes": list(self.minutes),
-            "spread": round(self.spread, 4),
-            "scarce": dict(self.scarce),
-            "balance": {place: dict(counts) for place, counts in self.balance.items()},
-        }
+        figures = asdict(self) | {"spread": round(self.spread, 4)}
+        del figures["families"]
+        return figures
 
 
 def fairness(exam: Exam) -> Fairness:
@@ -104,8 +100,8 @@ def fairness(exam: Exam) -> Fairness:
         sum(count - 1 for count in answers.values()),
         (min(version.minutes for version in exam.versions), max(version.minutes for version in exam.versions)),
         float(max(times) / min(times) - 1),
-        balance,
         scarce,
+        balance,
         families,
     )
 

@@ -10,8 +10,8 @@ from rldrill.exam.exam import Exam, Person, Version
 from rldrill.exam.pool import Candidate, Place, candidate, problems
 from rldrill.exam.sealing import Secret
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed
-from rldrill.exam.slots import Slot, slots
-from rldrill.exam.worth import error, partial, worth
+from rldrill.exam.slots import Slot, error, slots
+from rldrill.exam.worth import partial, worth
 from rldrill.exercise import Exercise
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError

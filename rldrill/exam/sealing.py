@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rldrill.files import shown
 from rldrill.problems.draws import Draws
-from rldrill.problems.errors import FileError
+from rldrill.problems.errors import FileError, reason
 
 #: A shorter secret could be found by trying all; a longer file is no secret but something else.
 _LEAST, _MOST = 16, 4096
@@ -61,7 +61,7 @@ def read_secret(path: Path) -> tuple[Secret, bool]:
     except FileNotFoundError:
         return _fresh(path), True
     except OSError as error:
-        raise FileError(f"{where}: the secret cannot be read ({_reason(error)}); name another file.") from None
+        raise FileError(f"{where}: the secret cannot be read ({reason(error)}); name another file.") from None
     if len(key) > _MOST:
         raise FileError(f"{where}: a secret has at most {_MOST} bytes; name a file that holds nothing else.")
     if len(key) < _LEAST:
@@ -78,9 +78,5 @@ def _fresh(path: Path) -> Secret:
         with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="ascii") as file:
             file.write(f"{key}\n")
     except OSError as error:
-        raise FileError(f"{shown(path)}: a secret cannot be written there ({_reason(error)}); name another.") from None
+        raise FileError(f"{shown(path)}: a secret cannot be written there ({reason(error)}); name another.") from None
     return Secret(key.encode())
-
-
-def _reason(error: OSError) -> str:
-    return (error.strerror or str(error)).lower()

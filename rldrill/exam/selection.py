@@ -30,9 +30,13 @@ def sequence(names: Sequence[str], level: int | None, seed: int) -> Iterator[tup
     problems = Draws(f"problems {seed} version 0")
     for _ in count():
         for family in order.shuffled(chosen):
-            wanted = level if level is not None else order.choice(MIXED)
-            fitting = wanted if wanted in family.levels else family.levels[-1]
-            yield family, fitting, problems.below(MAX_DRAWN)
+            yield family, level_of(family.levels, level, order), problems.below(MAX_DRAWN)
+
+
+def level_of(levels: Sequence[int], wanted: int | None, draws: Draws) -> int:
+    """The level that is wanted, or one of the mix; the highest of these where it is none of them."""
+    level = wanted if wanted is not None else draws.choice(MIXED)
+    return level if level in levels else levels[-1]
 
 
 def announced_seed(seed: int | None) -> int:

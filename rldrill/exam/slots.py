@@ -1,6 +1,6 @@
 """The places of an exam: which family and level, or which fixed problem, stands where."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import chain, islice, zip_longest
 
@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from rldrill.exam.blueprint import MOST_PROBLEMS, MOST_VERSIONS, Blueprint, Entry
 from rldrill.exam.expected import COUNTED, variety
 from rldrill.exam.expected import minutes as expected
-from rldrill.exam.selection import MIXED
+from rldrill.exam.selection import level_of
 from rldrill.exercise import Exercise, load
 from rldrill.problems.catalogue import chosen, headers
 from rldrill.problems.catalogue import family as family_of
@@ -52,15 +52,17 @@ class Slot(Struct, frozen=True):
     @property
     def minutes(self) -> int:
         """How many minutes such a problem takes about."""
-        levels = expected()[self.family]
-        return levels[min(self.level or 2, len(levels)) - 1]
+        return self._of_its_level(expected())
 
     @property
     def variety(self) -> int:
         """How many versions may have such a problem and share no answer, as far as that is counted."""
-        levels = variety()[self.family]
-        counted = levels[min(self.level or 2, len(levels)) - 1]
+        counted = self._of_its_level(variety())
         return MOST_VERSIONS if counted == COUNTED else counted
+
+    def _of_its_level(self, figures: Mapping[str, Sequence[int]]) -> int:
+        levels = figures[self.family]
+        return levels[min(self.level or 2, len(levels)) - 1]
 
 
 def slots(
@@ -83,7 +85,7 @@ def slots(
     rest = (blueprint.minutes or 0) - sum(slot.minutes for found in named.values() for slot in found or ())
     topics = [index for index, found in named.items() if found is None]
     if blueprint.minutes and topics and rest < 1:
-        raise _error(
+        raise error(
             blueprint.place(), "The problems that are named take all of the time already; leave some out or allow more."
         )
     for index in topics:
@@ -99,8 +101,9 @@ def slots(
     )
 
 
-def _error(where: str, sentence: str) -> UserError:
-    return FileError(f"{where}{sentence}") if where else UsageError(sentence)
+def error(where: str, sentence: str) -> UserError:
+    """What is said of what does not fit, in a file or on a command line."""
+    return FileError(f"{where}{sentence}") if where else UsageError(f"{sentence[:1].upper()}{sentence[1:]}")
 
 
 @contextmanager
@@ -125,7 +128,7 @@ def _named(blueprint: Blueprint, index: int, draws: Draws) -> list[Slot] | None:
         (header,) = headers([family_of(entry.family).name])
         if entry.level is not None and entry.level not in header.levels:
             raise UsageError(f"{header.name} has no level {entry.level}; it has {', '.join(map(str, header.levels))}.")
-        return [Slot(header.name, _level(header, entry.level, draws)) for _ in range(entry.count or 1)]
+        return [Slot(header.name, level_of(header.levels, entry.level, draws)) for _ in range(entry.count or 1)]
 
 
 def _of_topics(blueprint: Blueprint, index: int, draws: Draws, time: int | None, versions: int) -> list[Slot]:
@@ -146,11 +149,6 @@ def _headers(names: Sequence[str], exclude: Sequence[str]) -> tuple[Header, ...]
     return found
 
 
-def _level(header: Header, wanted: int | None, draws: Draws) -> int:
-    level = wanted if wanted is not None else draws.choice(MIXED)
-    return level if level in header.levels else header.levels[-1]
-
-
 def _endless(candidates: Sequence[Header], level: int | None, draws: Draws, versions: int) -> Iterator[Slot]:
     """Topic by topic in turn, every family before one comes again; first those with an answer for each version.
 
@@ -160,7 +158,7 @@ def _endless(candidates: Sequence[Header], level: int | None, draws: Draws, vers
     while True:
         poor: list[Slot] = []
         for header in _interleaved(candidates, draws):
-            slot = Slot(header.name, _level(header, level, draws))
+            slot = Slot(header.name, level_of(header.levels, level, draws))
             if slot.variety < versions and level is None:
                 others = [replace(slot, level=other) for other in header.levels]
                 slot = max((slot, *others), key=lambda each: min(each.variety, versions))
@@ -185,7 +183,7 @@ def _filled(candidates: Sequence[Header], entry: Entry, draws: Draws, time: int,
     if entry.count is not None:
         return list(islice(endless, entry.count))
     result: list[Slot] = []
-    for slot in islice(endless, max(100, 2 * len(candidates))):
+    for slot in islice(endless, max(MOST_PROBLEMS, 2 * len(candidates))):
         if slot.minutes <= time or not result:
             result.append(slot)
             time -= slot.minutes

@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from rldrill.exam.slots import Slot
+from rldrill.exam.slots import Slot, error
 from rldrill.exercise import Exercise
-from rldrill.problems.errors import FileError, UsageError
 from rldrill.solutions.effort import minutes_of, points
 
 
@@ -25,7 +24,7 @@ def worth(slots: Sequence[Slot], exercises: Sequence[Exercise], total: int | Non
     result = [_set(slot, exercise) for slot, exercise in zip(slots, exercises, strict=True)]
     if total is None:
         return [given or points(exercise.solution) for given, exercise in zip(result, exercises, strict=True)]
-    spent = sum(sum(given.values()) for given in result if given)
+    spent = sum(sum(given.values()) for given in result)
     waiting = [
         (index, label, minutes_of(exercise.solution, label))
         for index, (given, exercise) in enumerate(zip(result, exercises, strict=True))
@@ -102,8 +101,3 @@ def _set(slot: Slot, exercise: Exercise) -> dict[str, int]:
                     f"{len(labels)} here; give so many, or one number for the problem.",
                 )
             return dict(zip(labels, several, strict=True))
-
-
-def error(where: str, sentence: str) -> FileError | UsageError:
-    """What is said of points that do not fit, in a file or on a command line."""
-    return FileError(f"{where}{sentence}") if where else UsageError(f"{sentence[:1].upper()}{sentence[1:]}")

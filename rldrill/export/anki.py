@@ -1,7 +1,6 @@
 """An exam as a deck for Anki: a note for every problem, known again by its ID; the bytes are the same every time."""
 
 import hashlib
-import io
 import tempfile
 import zipfile
 from collections.abc import Callable
@@ -10,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Wrong, answer, listed, typeset
+from rldrill.export.asked import Wrong, answer, label, listed, typeset
+from rldrill.export.packed import packed
 from rldrill.export.page import beside
 from rldrill.print.solved import with_mathematics
 from rldrill.print.words import Words, words
@@ -27,8 +27,6 @@ _FRONT = "{{Question}}"
 _BACK = '{{FrontSide}}<hr id="answer">{{Answer}}<p class="id">{{ID}}</p>'
 #: The moment that all notes are of, so that the same exam is the same file.
 _TIME = 1_600_000_000.0
-_ZIP_DATE = (1980, 1, 1, 0, 0, 0)
-_MISTAKES = 4
 _HTML = LatexHtml()
 
 
@@ -70,11 +68,8 @@ def _packed(package: "genanki.Package") -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "deck.apkg"
         package.write_to_file(str(path), timestamp=_TIME)
-        result = io.BytesIO()
-        with zipfile.ZipFile(path) as made, zipfile.ZipFile(result, "w", zipfile.ZIP_DEFLATED) as packed:
-            for name in sorted(made.namelist()):
-                packed.writestr(zipfile.ZipInfo(name, _ZIP_DATE), made.read(name), zipfile.ZIP_DEFLATED)
-    return result.getvalue()
+        with zipfile.ZipFile(path) as made:
+            return packed({name: made.read(name) for name in sorted(made.namelist())})
 
 
 def _number(text: str) -> int:
@@ -95,22 +90,18 @@ def _note(genanki: Any, model: Any, exercise: Exercise, told: Words) -> Any:
     )
 
 
-def _label(exercise: Exercise, part: Part) -> str:
-    return f"({part.label}) " if len(exercise.parts) > 1 else ""
-
-
 def _asked(exercise: Exercise, part: Part) -> str:
     options = ""
     if isinstance(part.kind, Choice):
         options = "".join(f"<p>({letter}) {_HTML.text(text)}</p>" for letter, text in part.kind.options.items())
-    return f"<p>{_label(exercise, part)}{_HTML.text(part.ask)}</p>{options}"
+    return f"<p>{label(exercise, part)}{_HTML.text(part.ask)}</p>{options}"
 
 
 def _solved(exercise: Exercise, part: Part, told: Words) -> str:
-    wrong = "".join(_wrong(part, each) for each in listed(exercise, part, _MISTAKES))
+    wrong = "".join(_wrong(part, each) for each in listed(exercise, part))
     mistakes = f"<p>{told.mistakes}</p><ul>{wrong}</ul>" if wrong else ""
     return (
-        f"<p><b>{_label(exercise, part)}</b></p>{_HTML.block(answer(exercise, part))}"
+        f"<p><b>{label(exercise, part)}</b></p>{_HTML.block(answer(exercise, part))}"
         f"{_HTML.blocks(exercise.working(part.label))}{mistakes}"
     )
 

@@ -26,6 +26,8 @@ from rldrill.solutions.exact import NotReal, decimal, parameters
 
 #: So many wrong answers to a part go along, the likeliest ones.
 _MISTAKES = 24
+#: So many of them a reader is told in a list.
+_LISTED = 4
 #: So many wrong answers are told in one cell.
 _TOLD = 6
 #: A decimal in a file has so many significant digits.
@@ -86,6 +88,11 @@ def answer(exercise: Exercise, part: Part) -> Block:
     return exercise.answer(part)
 
 
+def label(exercise: Exercise, part: Part) -> str:
+    """The letter of a part, with the space behind it; nothing where there is only one."""
+    return f"({part.label}) " if len(exercise.parts) > 1 else ""
+
+
 def _cell(part: Part, name: str, left: Math | None, content: Any, told: Words) -> Cell:
     match part.kind:
         case Choice(options):
@@ -132,10 +139,10 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
         yield Wrong(tuple(map(_typed, found.values())), value, by_name(wrong.sentence, part.kind), wrong.read)
 
 
-def listed(exercise: Exercise, part: Part, most: int) -> Iterator[Wrong]:
+def listed(exercise: Exercise, part: Part) -> Iterator[Wrong]:
     """Wrong answers to a part that a reader is told; those that the statement rules out are recognised only."""
-    possible = (each for each in wrong_answers(exercise, part, 2 * most) if is_possible(exercise, part, each.value))
-    return islice(possible, most)
+    possible = (each for each in wrong_answers(exercise, part, 2 * _LISTED) if is_possible(exercise, part, each.value))
+    return islice(possible, _LISTED)
 
 
 def typeset(part: Part, wrong: Wrong) -> Sequence[Math]:

@@ -15,18 +15,16 @@ from xml.etree.ElementTree import Element, SubElement
 from msgspec import Struct
 from msgspec.structs import replace
 
-from rldrill.exam.exam import Exam, Head, Version
+from rldrill.exam.choices import Language
+from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, answer, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
 from rldrill.export.packed import packed
+from rldrill.export.with_files import WithFiles
 from rldrill.export.words import page_words, typing_note
 from rldrill.problems.notations import with_mark
 from rldrill.problems.parts import Choice, Part, YesNo
-from rldrill.problems.pictures import Picture
-from rldrill.render.html import LatexHtml
 from rldrill.render.mathematics.unicode import inline
-from rldrill.render.pictures.described import described
-from rldrill.render.pictures.svg import svg
 
 _XSI = "http://www.w3.org/2001/XMLSchema-instance"
 _QTI = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
@@ -35,23 +33,6 @@ _META = "http://canvas.instructure.com/xsd/cccv1p0"
 _PLACE = "response_"
 _ONLY = "response1"
 _BESIDE = "associatedcontent/imscc_xmlv1p1/learning-application-resource"
-
-
-class _Writer(LatexHtml):
-    """HTML as Canvas shows it, its pictures files beside the quiz."""
-
-    def __init__(self, folder: str, head: Head) -> None:
-        self.head = head
-        self._folder = folder
-        self.files: dict[str, str] = {}
-
-    def picture(self, picture: Picture) -> str:
-        """A picture as a file that the text refers to."""
-        if not (drawing := svg(picture)):
-            return ""
-        name = f"{self._folder}/picture-{len(self.files) + 1}.svg"
-        self.files[name] = drawing
-        return f'<p><img src="{name}" alt="{escape(described(picture))}"></p>'
 
 
 def canvas_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> bytes:
@@ -71,7 +52,7 @@ def canvas_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lam
     files: dict[str, str] = {}
     for version in exam.versions:
         name = _name(exam, version.code)
-        writer = _Writer(name, exam.head)
+        writer = WithFiles(f"{name}/picture")
         written = {
             f"{name}/{name}.xml": _xml(_quiz(writer, name, exam, version, practice=practice)),
             f"{name}/assessment_meta.xml": _xml(_settings(name, exam, version, practice=practice)),
@@ -108,7 +89,6 @@ def _resource(
 def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Element:
     """What Canvas keeps of a quiz beside its questions."""
     quiz = Element("quiz", {"identifier": name, "xmlns": _META})
-    attempts = {"allowed_attempts": "-1"} if practice else {"allowed_attempts": "1"}
     note = typing_note(exam.head, reads="language")
     limit = {} if exam.head.duration is None else {"time_limit": str(exam.head.duration)}
     said = {
@@ -119,7 +99,7 @@ def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Ele
         "points_possible": str(version.points),
         "show_correct_answers": "true" if practice else "false",
         "available": "false",
-        **attempts,
+        "allowed_attempts": "-1" if practice else "1",
         **limit,
     }
     for tag, text in said.items():
@@ -127,13 +107,13 @@ def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Ele
     return quiz
 
 
-def _quiz(writer: _Writer, name: str, exam: Exam, version: Version, *, practice: bool) -> Element:
+def _quiz(writer: WithFiles, name: str, exam: Exam, version: Version, *, practice: bool) -> Element:
     root = Element("questestinterop", {"xmlns": _QTI, "xmlns:xsi": _XSI, "xsi:schemaLocation": f"{_QTI} {_QTI}p1.xsd"})
     assessment = SubElement(root, "assessment", ident=name, title=exam.title_of(version))
     _fields(SubElement(assessment, "qtimetadata"), {"cc_maxattempts": "unlimited" if practice else "1"})
     section = SubElement(assessment, "section", ident="root_section")
     for number, exercise in enumerate(version.exercises, 1):
-        for place, question in enumerate(_questions(writer, number, exercise, practice=practice)):
+        for place, question in enumerate(_questions(writer, exam.head.language, number, exercise, practice=practice)):
             section.append(_item(question, _name(exam, version.code, str(number), str(place))))
     return root
 
@@ -170,20 +150,22 @@ class _Question(Struct, frozen=True):
     working: str = ""
 
 
-def _questions(writer: _Writer, number: int, exercise: Exercise, *, practice: bool) -> Iterator[_Question]:
+def _questions(
+    writer: WithFiles, language: Language, number: int, exercise: Exercise, *, practice: bool
+) -> Iterator[_Question]:
     """What is given, and a question for everything that is asked."""
     title = f"{number:02} {inline(exercise.problem.family.title)}"
-    asked = [(part, cells(exercise, part, writer.head.language)) for part in exercise.parts]
+    asked = [(part, cells(exercise, part, language)) for part in exercise.parts]
     by_hand = any(is_open(cell) for _, every in asked for cell in every)
-    note = f"<p><em>{page_words(writer.head.language).by_hand}</em></p>" if by_hand else ""
+    note = f"<p><em>{page_words(language).by_hand}</em></p>" if by_hand else ""
     yield _Question("text_only_question", title, writer.blocks(exercise.question()) + note)
     for part, every in asked:
         for question in _of_part(writer, exercise, part, every):
-            working = writer.block(answer(exercise, part)) + writer.blocks(exercise.working(part.label))
+            working = writer.solved(exercise, part)
             yield replace(question, title=f"{title} {question.title}".strip(), working=working if practice else "")
 
 
-def _of_part(writer: _Writer, exercise: Exercise, part: Part, every: Sequence[Cell]) -> Iterator[_Question]:
+def _of_part(writer: WithFiles, exercise: Exercise, part: Part, every: Sequence[Cell]) -> Iterator[_Question]:
     wrong = tuple(wrong_answers(exercise, part))
     label = f"({part.label})" if len(exercise.parts) > 1 else ""
     ask, points = f"<p>{label} {writer.text(part.ask)}</p>", Decimal(part.points)
@@ -217,12 +199,12 @@ def _number(number: Quantity) -> str:
     return escape(with_mark(number.exact if number.exact == number.decimal else f"{number.exact} = {decimal}"))
 
 
-def _left(writer: _Writer, cell: Cell) -> str:
+def _left(writer: WithFiles, cell: Cell) -> str:
     return f"{escape(cell.name)}:" if cell.left is None else f"{writer.math(cell.left)} ="
 
 
 def _choices(
-    writer: _Writer, part: Part, every: Sequence[Cell], wrong: Sequence[Wrong]
+    writer: WithFiles, part: Part, every: Sequence[Cell], wrong: Sequence[Wrong]
 ) -> Iterator[tuple[str, tuple[_Option, ...], str]]:
     """For every cell with a word the name of its place, what there is to choose, and what stands before it."""
     for index, cell in enumerate(every):

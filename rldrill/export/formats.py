@@ -69,7 +69,7 @@ def named(path: Path, format_: Format) -> Path:
     """The path with the ending that the format has."""
     if path.name.lower().endswith(format_.ending):
         return path
-    return path.with_name(path.name[: len(path.name) - len(path.suffix)] + format_.ending)
+    return path.with_name(path.stem + format_.ending)
 
 
 def export(

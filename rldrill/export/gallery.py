@@ -1,6 +1,6 @@
 """The catalogue as a site: a page for every family, and a front page that searches them without a server."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from html import escape
 from itertools import groupby
 from pathlib import Path
@@ -9,7 +9,7 @@ from unicodedata import name, normalize
 from msgspec import Struct
 
 from rldrill.exercise import Exercise, draw
-from rldrill.export.html import HTML, part_form, scripts, task
+from rldrill.export.html import HTML, part_form, scripts, tasks
 from rldrill.export.page import beside, page
 from rldrill.export.words import page_words
 from rldrill.misreading import misreading
@@ -38,13 +38,12 @@ _ALSO = {
 }
 
 
-def gallery(folder: Path, headers: tuple[Header, ...], advance: Callable[[], None] = lambda: None) -> Iterator[Path]:
+def gallery(folder: Path, headers: tuple[Header, ...]) -> Iterator[Path]:
     """Write the site: ``index.html``, and beside it a page for every family.
 
     Args:
         folder: where; it is made if it is not there.
         headers: the families, in the order of the catalogue.
-        advance: called after each family.
 
     Raises:
         OSError: a file cannot be written; ``filename`` says which.
@@ -57,7 +56,6 @@ def gallery(folder: Path, headers: tuple[Header, ...], advance: Callable[[], Non
         cards.append(_Card(header, formulas, _searched(header, exercises, formulas)))
         path = folder / f"{header.name}.html"
         write_bytes_atomically(path, _family(header, exercises, formulas).encode())
-        advance()
         yield path
     write_bytes_atomically(folder / "index.html", _front(cards).encode())
     yield folder / "index.html"
@@ -129,12 +127,8 @@ def _family(header: Header, exercises: tuple[Exercise, ...], formulas: tuple[For
         for formula in formulas
     )
     made = _mistakes(header, exercises)
-    examples = "".join(_example(level, item) for level, item in zip(header.levels, exercises, strict=True))
-    tasks = {
-        f"part-{level}-{part.label}": task(exercise, part)
-        for level, exercise in zip(header.levels, exercises, strict=True)
-        for part in exercise.parts
-    }
+    leveled = list(zip(header.levels, exercises, strict=True))
+    examples = "".join(_example(level, item) for level, item in leveled)
     body = (
         f'<nav><a href="index.html">All families</a></nav>\n<h1>{HTML.text(header.title)}</h1>\n'
         f"<p>{HTML.text(header.summary)} <small>{escape(header.source)}</small></p>\n"
@@ -143,7 +137,7 @@ def _family(header: Header, exercises: tuple[Exercise, ...], formulas: tuple[For
         f"<section><h2>Typical mistakes</h2>\n<ul>{made}</ul></section>\n"
         '<p id="score" role="status"></p>\n'
     )
-    return page(f"{header.title} · rldrill", body, more=scripts(tasks, page_words("en")))
+    return page(f"{header.title} · rldrill", body, more=scripts(tasks(leveled), page_words("en")))
 
 
 def _mistakes(header: Header, exercises: tuple[Exercise, ...]) -> str:

@@ -1,16 +1,16 @@
 """An exam as a page of the web: readable on a phone, printable, and for practice judged where it stands."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
 
 from rldrill.exam.choices import DecimalMark, Language
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, answer, cells, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, answer, cells, label, wrong_answers
 from rldrill.export.page import beside, embedded, page
 from rldrill.export.words import PageWords, page_words
-from rldrill.print.words import words, written_points
+from rldrill.print.words import words, written_points, written_time
 from rldrill.problems.parts import Choice, Matrix, Part, Policy, YesNo
 from rldrill.render.html import Html
 from rldrill.render.mathematics.mathml import mathml
@@ -38,7 +38,7 @@ def html_exam(exam: Exam, version: Version, *, practice: bool) -> str:
         exam.title_of(version),
         _front(exam, version) + problems + score,
         language=exam.head.language,
-        more=scripts(tasks(version.exercises), told, mark=exam.head.decimal_mark) if practice else "",
+        more=scripts(tasks(enumerate(version.exercises, 1)), told, mark=exam.head.decimal_mark) if practice else "",
     )
 
 
@@ -51,13 +51,9 @@ def scripts(tasks: dict[str, Any], told: PageWords, *, mark: DecimalMark = ".") 
     )
 
 
-def tasks(exercises: Sequence[Exercise]) -> dict[str, Any]:
+def tasks(numbered: Iterable[tuple[int, Exercise]]) -> dict[str, Any]:
     """For the form of every part: its cells with what is right in them, and the wrong answers that are known."""
-    return {
-        form_name(number, part): task(exercise, part)
-        for number, exercise in enumerate(exercises, 1)
-        for part in exercise.parts
-    }
+    return {_form_name(number, part): task(exercise, part) for number, exercise in numbered for part in exercise.parts}
 
 
 def task(exercise: Exercise, part: Part) -> dict[str, Any]:
@@ -83,7 +79,7 @@ def _known(part: Part, typed: Sequence[str]) -> list[Any]:
     return [[word] for word in typed] if isinstance(part.kind, Choice | YesNo | Policy) else list(typed)
 
 
-def form_name(number: int, part: Part) -> str:
+def _form_name(number: int, part: Part) -> str:
     """The name of a part's form."""
     return f"part-{number}-{part.label}"
 
@@ -94,7 +90,7 @@ def _front(exam: Exam, version: Version) -> str:
     who = "" if version.person is None else f"{told.name}: {version.person.name} · {version.person.number}"
     code = f"{told.version} {version.code}" if len(exam.versions) > 1 else ""
     points = f"{told.total}: {written_points(told, version.points)}"
-    time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
+    time = written_time(told, head.duration, version.minutes)
     lines = (place, who, " · ".join(filter(None, (code, points))), f"{told.rule} {time}", head.instructions)
     below = "".join(f"<p>{escape(line)}</p>" for line in lines if line)
     return f"<header>\n<h1>{escape(head.title)}</h1>\n{below}\n</header>\n"
@@ -113,8 +109,7 @@ def _problem(exam: Exam, number: int, exercise: Exercise, *, practice: bool) -> 
 
 def part_form(language: Language, number: int, exercise: Exercise, part: Part, *, practice: bool) -> str:
     """A part as a form: what is asked, boxes for the answer, and for practice all that helps."""
-    label = f"({part.label}) " if len(exercise.parts) > 1 else ""
-    name = form_name(number, part)
+    name = _form_name(number, part)
     tag = "form" if practice else "div"
     told, said = words(language), page_words(language)
     worth = f" <small>({written_points(told, part.points)})</small>" if len(exercise.parts) > 1 else ""
@@ -123,8 +118,8 @@ def part_form(language: Language, number: int, exercise: Exercise, part: Part, *
     extra = ' autocomplete="off"' if practice else ""
     return (
         f'<{tag} class="part" id="{name}"{extra}>\n'
-        f'<fieldset><legend class="ask">{label}{HTML.text(part.ask)}{worth}</legend>\n'
-        f"{_boxes(said, part, cells(exercise, part, language))}</fieldset>\n{judged}{helps}</{tag}>\n"
+        f'<fieldset><legend class="ask">{label(exercise, part)}{HTML.text(part.ask)}{worth}</legend>\n'
+        f"{_boxes(language, part, cells(exercise, part, language))}</fieldset>\n{judged}{helps}</{tag}>\n"
     )
 
 
@@ -136,19 +131,19 @@ def _helps(said: PageWords, exercise: Exercise, part: Part) -> str:
     )
 
 
-def _boxes(said: PageWords, part: Part, asked: Sequence[Cell]) -> str:
+def _boxes(language: Language, part: Part, asked: Sequence[Cell]) -> str:
     if isinstance(part.kind, Choice | YesNo):
         (only,) = asked
         assert isinstance(only, Word)
         options = "".join(_option(part, value, text) for value, text in only.options.items())
         return f'<div class="options">{options}</div>\n'
     if isinstance(part.kind, Matrix):
-        boxes = "".join(_box(said, index, cell) for index, cell in enumerate(asked))
+        boxes = "".join(_box(language, index, cell) for index, cell in enumerate(asked))
         return (
             f'<div class="cells matrix" style="grid-template-columns: repeat({part.kind.columns}, minmax(3.2em, 6em))">'
             f"{boxes}</div>\n"
         )
-    boxes = "".join(f"<label>{_left(cell)}{_box(said, i, cell)}</label>" for i, cell in enumerate(asked))
+    boxes = "".join(f"<label>{_left(cell)}{_box(language, i, cell)}</label>" for i, cell in enumerate(asked))
     return f'<div class="cells{" single" if len(asked) == 1 else ""}">{boxes}</div>\n'
 
 
@@ -164,8 +159,8 @@ def _option(part: Part, value: str, text: str) -> str:
     )
 
 
-def _box(said: PageWords, index: int, cell: Cell) -> str:
-    called = escape(cell.name or said.answer)
+def _box(language: Language, index: int, cell: Cell) -> str:
+    called = escape(cell.name or words(language).answer)
     if isinstance(cell, Quantity):
         return (
             f'<input type="text" name="cell-{index}" data-cell="{index}" aria-label="{called}" autocomplete="off" '
@@ -174,5 +169,5 @@ def _box(said: PageWords, index: int, cell: Cell) -> str:
     options = "".join(f"<option>{escape(option)}</option>" for option in cell.options)
     return (
         f'<select name="cell-{index}" data-cell="{index}" aria-label="{called}">'
-        f'<option value="">{said.choose}</option>{options}</select>'
+        f'<option value="">{page_words(language).choose}</option>{options}</select>'
     )

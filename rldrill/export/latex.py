@@ -5,14 +5,12 @@ from rldrill.exercise import Exercise
 from rldrill.export.asked import Wrong, answer, listed, typeset
 from rldrill.export.words import page_words
 from rldrill.print.solved import with_mathematics
-from rldrill.print.words import Words, words
+from rldrill.print.words import Words, words, written_time
 from rldrill.problems.parts import Choice, Part, YesNo
-from rldrill.render.latex import latex_block, latex_document, latex_text
-from rldrill.render.mathematics.latex import latex_plain, latex_typed
+from rldrill.render.latex import latex_block, latex_document
+from rldrill.render.mathematics.latex import latex_plain, latex_text, latex_typed
 from rldrill.solutions.effort import minutes_of, whole
 
-#: So many wrong answers to a part are told.
-_MISTAKES = 4
 _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \usepackage{iftex}
 \ifPDFTeX
@@ -66,7 +64,7 @@ def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
     if version.person is not None:
         name, number = latex_plain(version.person.name), latex_plain(version.person.number)
     who = rf"{told.name}: {name}\hfill {told.number}: {number}"
-    time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
+    time = written_time(told, head.duration, version.minutes)
     place = " · ".join(filter(None, (head.course, head.date, code)))
     lines = [f"{{\\Large\\bfseries {latex_plain(head.title)}\\par}}", latex_plain(place), who]
     lines += [latex_plain(f"{told.rule} {time}"), latex_plain(head.instructions)]
@@ -108,7 +106,7 @@ def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
     lines = "".join(
         f"\\item {_typed(part, wrong)}: {latex_text(with_mathematics(wrong.says))}"
         f"{'' if wrong.read is None else latex_block(wrong.read)}\n"
-        for wrong in listed(exercise, part, _MISTAKES)
+        for wrong in listed(exercise, part)
     )
     if not lines:
         return ""

@@ -7,35 +7,19 @@ from html import escape
 from math import gcd, lcm
 from xml.etree import ElementTree
 
+from rldrill.exam.choices import Language
 from rldrill.exam.exam import Exam, Head, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Word, Wrong, answer, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, label, told_apart, wrong_answers
+from rldrill.export.with_files import WithFiles, matrix_rows
 from rldrill.export.words import note, page_words
 from rldrill.problems.parts import Choice, Matrix, Part
-from rldrill.problems.pictures import Picture
-from rldrill.render.html import LatexHtml
 from rldrill.render.mathematics.unicode import inline
-from rldrill.render.pictures.described import described
-from rldrill.render.pictures.svg import svg
 
+#: What stands before the names of files.
+_PLACE = "@@PLUGINFILE@@/"
 #: What ends an answer or a feedback in a box of cloze, or keeps another sign from doing so.
 _SPECIAL = re.compile(r"[\\{}#~]")
-
-
-class _Writer(LatexHtml):
-    """HTML whose pictures are files beside it."""
-
-    def __init__(self, head: Head) -> None:
-        self.head = head
-        self.files: dict[str, str] = {}
-
-    def picture(self, picture: Picture) -> str:
-        """A picture as a file that the text refers to."""
-        if not (drawing := svg(picture)):
-            return ""
-        name = f"picture-{len(self.files) + 1}.svg"
-        self.files[name] = drawing
-        return f'<p><img src="@@PLUGINFILE@@/{name}" alt="{escape(described(picture))}"></p>'
 
 
 def moodle_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> bytes:
@@ -63,7 +47,7 @@ def _text(parent: ElementTree.Element, text: str) -> ElementTree.Element:
     return parent
 
 
-def _html(question: ElementTree.Element, tag: str, text: str, writer: _Writer | None = None) -> None:
+def _html(question: ElementTree.Element, tag: str, text: str, writer: WithFiles | None = None) -> None:
     element = _text(ElementTree.SubElement(question, tag, format="html"), text)
     for name, drawing in writer.files.items() if writer else ():
         file = ElementTree.SubElement(element, "file", name=name, path="/", encoding="base64")
@@ -75,14 +59,11 @@ def _question(head: Head, number: int, exercise: Exercise, *, practice: bool) ->
     by_hand = any(map(is_open, asked))
     question = ElementTree.Element("question", type="essay" if by_hand else "cloze")
     _text(ElementTree.SubElement(question, "name"), f"{number:02} {inline(exercise.problem.family.title)}")
-    writer = _Writer(head)
+    writer, solved = WithFiles("picture", _PLACE), WithFiles("picture", _PLACE)
     told = note(head, asked, reads="both")
     body = writer.blocks(exercise.question()) + (f"<p><em>{told}</em></p>" if told else "")
-    _html(question, "questiontext", body + "".join(_parts(writer, exercise, by_hand=by_hand)), writer)
-    solved = _Writer(head)
-    working = "".join(
-        solved.block(answer(exercise, part)) + solved.blocks(exercise.working(part.label)) for part in exercise.parts
-    )
+    _html(question, "questiontext", body + "".join(_parts(writer, head.language, exercise, by_hand=by_hand)), writer)
+    working = "".join(solved.solved(exercise, part) for part in exercise.parts)
     _html(question, "generalfeedback", working if practice else "", solved if practice else None)
     if by_hand:
         ElementTree.SubElement(question, "defaultgrade").text = str(max(1, points_of(exercise)))
@@ -93,27 +74,24 @@ def _question(head: Head, number: int, exercise: Exercise, *, practice: bool) ->
     return question
 
 
-def _parts(writer: _Writer, exercise: Exercise, *, by_hand: bool) -> Iterator[str]:
-    asked = {part.label: cells(exercise, part, writer.head.language) for part in exercise.parts}
+def _parts(writer: WithFiles, language: Language, exercise: Exercise, *, by_hand: bool) -> Iterator[str]:
+    asked = {part.label: cells(exercise, part, language) for part in exercise.parts}
     common = lcm(*map(len, asked.values()))
     weights = {part.label: max(1, part.points) * (common // len(asked[part.label])) for part in exercise.parts}
     shared = gcd(*weights.values())
     for part in exercise.parts:
-        label = f"({part.label}) " if len(exercise.parts) > 1 else ""
-        yield f"<p>{label}{writer.text(part.ask)}</p>"
+        yield f"<p>{label(exercise, part)}{writer.text(part.ask)}</p>"
         if by_hand:
             continue
         weight = weights[part.label] // shared
         wrong = tuple(wrong_answers(exercise, part))
-        boxes = [_box(writer, part, cell, index, weight, wrong) for index, cell in enumerate(asked[part.label])]
+        boxes = [_box(language, part, cell, index, weight, wrong) for index, cell in enumerate(asked[part.label])]
         yield _laid_out(writer, part, asked[part.label], boxes)
 
 
-def _laid_out(writer: _Writer, part: Part, asked: Sequence[Cell], boxes: Sequence[str]) -> str:
+def _laid_out(writer: WithFiles, part: Part, asked: Sequence[Cell], boxes: Sequence[str]) -> str:
     if isinstance(part.kind, Matrix):
-        lines = (boxes[start : start + part.kind.columns] for start in range(0, len(boxes), part.kind.columns))
-        rows = "".join(f"<tr>{''.join(f'<td>{box}</td>' for box in line)}</tr>" for line in lines)
-        return f"<table>{rows}</table>"
+        return f"<table>{matrix_rows(boxes, part.kind)}</table>"
     lefts = ("" if cell.left is None else f"{writer.math(cell.left)} = " for cell in asked)
     options = ""
     if isinstance(part.kind, Choice):
@@ -121,10 +99,10 @@ def _laid_out(writer: _Writer, part: Part, asked: Sequence[Cell], boxes: Sequenc
     return options + "".join(f"<p>{left}{box}</p>" for left, box in zip(lefts, boxes, strict=True))
 
 
-def _box(writer: _Writer, part: Part, cell: Cell, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
+def _box(language: Language, part: Part, cell: Cell, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
     if isinstance(cell, Word):
         return _options(part, cell, index, weight, wrong)
-    right = page_words(writer.head.language).right
+    right = page_words(language).right
     answers = [f"={cell.decimal}:{cell.tolerance}#{_escaped(right)}"]
     for other, says in told_apart(cell, index, wrong):
         answers.append(f"%0%{other.decimal}:{other.tolerance}#{_escaped(says)}")

@@ -9,18 +9,15 @@ from html import escape
 
 from rldrill.exam.exam import Exam, Head, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, answer, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, label, told_apart, wrong_answers
 from rldrill.export.packed import packed
+from rldrill.export.with_files import WithFiles, matrix_rows
 from rldrill.export.words import note
 from rldrill.problems.document import Equation, Table
 from rldrill.problems.mathematics import Math
 from rldrill.problems.parts import Choice, Matrix, Part, YesNo
-from rldrill.problems.pictures import Picture
-from rldrill.render.html import LatexHtml
 from rldrill.render.mathematics.mathml import chain, element
 from rldrill.render.mathematics.unicode import inline
-from rldrill.render.pictures.described import described
-from rldrill.render.pictures.svg import svg
 
 _XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 _XSI = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
@@ -31,12 +28,8 @@ _MATHML = "http://www.w3.org/1998/Math/MathML"
 _WORKING = "WORKING"
 
 
-class _Writer(LatexHtml):
-    """XHTML as items may hold it, with MathML, and pictures as files beside them."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-        self.files: dict[str, str] = {}
+class _Writer(WithFiles):
+    """XHTML as items may hold it, with MathML."""
 
     def math(self, math: Math) -> str:
         """Mathematics within a line."""
@@ -54,14 +47,6 @@ class _Writer(LatexHtml):
             sides = "\u2003".join(map(self.math, equation.rights))
             return f"<p>{sides}</p>"
         return f"<p>{_mathml(chain(equation))}</p>"
-
-    def picture(self, picture: Picture) -> str:
-        """A picture as a file that the text refers to."""
-        if not (drawing := svg(picture)):
-            return ""
-        name = f"{self._name}-{len(self.files) + 1}.svg"
-        self.files[name] = drawing
-        return f'<p><img src="{name}" alt="{escape(described(picture))}"/></p>'
 
 
 def _mathml(inside: str) -> str:
@@ -81,7 +66,7 @@ def qti_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda
     for version in exam.versions:
         names = []
         for number, exercise in enumerate(version.exercises, 1):
-            writer = _Writer(name := f"item-{version.code}-{number}")
+            writer = _Writer(name := f"item-{version.code}-{number}", end="/>")
             files[f"{name}.xml"] = _item(exam.head, writer, name, number, exercise, practice=practice)
             files |= writer.files
             resources.append(_resource(name, "item", [*writer.files]))
@@ -121,9 +106,8 @@ def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercis
         _Asked(part, cells(exercise, part, head.language), tuple(wrong_answers(exercise, part)))
         for part in exercise.parts
     ]
-    label = len(exercise.parts) > 1
     told = note(head, [cell for each in asked for cell in each.cells], reads="point")
-    body = "".join(each.body(writer, label=label) for each in asked)
+    body = "".join(each.body(writer, label(exercise, each.part)) for each in asked)
     question = writer.blocks(exercise.question()) + (f"<p><em>{told}</em></p>" if told else "")
     conditions, feedback = [], []
     for each in asked:
@@ -131,8 +115,7 @@ def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercis
             conditions.append(condition)
             feedback += says
     if practice:
-        working = "".join(writer.block(answer(exercise, part)) + writer.blocks(exercise.working(part.label))
-                          for part in exercise.parts)  # fmt: skip
+        working = "".join(writer.solved(exercise, part) for part in exercise.parts)
         feedback.append((_WORKING, f"<div>{working}</div>"))
         conditions.append(_tell(_WORKING))
     modal = "".join(
@@ -166,9 +149,8 @@ class _Asked:
             for index, cell in enumerate(self.cells)
         )
 
-    def body(self, writer: _Writer, *, label: bool) -> str:
+    def body(self, writer: _Writer, letter: str) -> str:
         """What is asked, and where it is answered."""
-        letter = f"({self.part.label}) " if label else ""
         ask = f"<p>{letter}{writer.text(self.part.ask)}</p>\n"
         if isinstance(self.part.kind, Choice | YesNo):
             (only,) = self.cells
@@ -187,12 +169,9 @@ class _Asked:
             return f"{ask}{''.join(places)}\n"
         boxes = [self._box(index, cell) for index, cell in enumerate(self.cells)]
         if isinstance(self.part.kind, Matrix):
-            wide = self.part.kind.columns
-            lines = (boxes[start : start + wide] for start in range(0, len(boxes), wide))
-            rows = "".join(f"<tr>{''.join(f'<td>{box}</td>' for box in line)}</tr>" for line in lines)
-            return f"{ask}<table><tbody>{rows}</tbody></table>\n"
-        lines_ = (f"<p>{_left(writer, cell)}{box}</p>" for cell, box in zip(self.cells, boxes, strict=True))
-        return f"{ask}{''.join(lines_)}\n"
+            return f"{ask}<table><tbody>{matrix_rows(boxes, self.part.kind)}</tbody></table>\n"
+        lines = (f"<p>{_left(writer, cell)}{box}</p>" for cell, box in zip(self.cells, boxes, strict=True))
+        return f"{ask}{''.join(lines)}\n"
 
     def judged(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
         """For every cell how it is judged, and what is told of its wrong answers."""

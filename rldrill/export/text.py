@@ -8,7 +8,7 @@ from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
 from rldrill.export.asked import answer
 from rldrill.export.words import page_words
-from rldrill.print.words import words, written_points
+from rldrill.print.words import words, written_points, written_time
 from rldrill.problems.document import Block
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.markdown import markdown, markdown_plain, markdown_text
@@ -44,7 +44,7 @@ def _lines(exam: Exam, version: Version, answers: Sequence[str], written: Writer
     for line in (head.course, head.date, head.instructions):
         if line:
             yield markdown_plain(line)
-    time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
+    time = written_time(told, head.duration, version.minutes)
     yield f"{told.rule} {time}"
     for number, exercise in enumerate(version.exercises, 1):
         worth = written_points(told, points_of(exercise))

@@ -23,7 +23,6 @@ class PageWords(Struct, frozen=True):
     working: str
     score: str
     choose: str
-    answer: str
     right: str
     note: str
     by_hand: str
@@ -39,7 +38,6 @@ _WORDS = {
         working="Answer and working",
         score="{} of {} parts right.",
         choose="choose …",
-        answer="Answer",
         right="Right.",
         note="Type decimals that are right to three significant digits, such as {}; fractions are not read here.",
         by_hand="Answer in words and formulas; it is marked by hand.",
@@ -53,7 +51,6 @@ _WORDS = {
         working="Antwort und Rechenweg",
         score="{} von {} Teilen richtig.",
         choose="wählen …",
-        answer="Antwort",
         right="Richtig.",
         note="Geben Sie Dezimalzahlen mit drei richtigen Ziffern ein, etwa {}; Brüche werden hier nicht gelesen.",
         by_hand="Antworten Sie in Worten und Formeln; die Antwort wird von Hand bewertet.",

@@ -2,14 +2,15 @@
 
 import json
 import os
-import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 from rldrill import __version__
 from rldrill.generation.lots import Lot
 from rldrill.problems.errors import FileError, UsageError
+from rldrill.writing import whole
 
 _ABOUT = "generate.json"
 #: Rows that Parquet keeps together.
@@ -62,18 +63,8 @@ class Folder:
         Raises:
             OSError: it cannot be written; ``filename`` says which.
         """
-        handle, temporary = tempfile.mkstemp(dir=self._path, prefix=f".{lot.name}.")
-        os.close(handle)
-        unfinished = Path(temporary)
-        try:
-            number = _WRITERS[self._ending](unfinished, lines)
-            unfinished.chmod(0o644)
-            unfinished.replace(self._file(lot))
-        except OSError as error:
-            raise OSError(error.errno, error.strerror, str(self._file(lot))) from error
-        finally:
-            unfinished.unlink(missing_ok=True)
-        return number
+        with whole(self._file(lot)) as unfinished:
+            return _WRITERS[self._ending](unfinished, lines)
 
     def _file(self, lot: Lot) -> Path:
         return self._path / f"{lot.name}.{self._ending}"
@@ -96,7 +87,8 @@ def _parquet(path: Path, lines: Iterable[str]) -> int:
     schema = pyarrow.schema([(name, pyarrow.int8() if name == "level" else pyarrow.string()) for name in names])
     number = 0
     with parquet.ParquetWriter(path, schema) as writer:
-        for rows in _groups(map(_row, lines), _ROWS):
+        rows_of = map(_row, lines)
+        while rows := list(islice(rows_of, _ROWS)):
             number += len(rows)
             writer.write_table(pyarrow.Table.from_pylist(rows, schema=schema))
     return number
@@ -115,17 +107,6 @@ def _row(line: str) -> dict[str, Any]:
         "answers": json.dumps(answers, ensure_ascii=False),
         "record": line,
     }
-
-
-def _groups(rows: Iterator[dict[str, Any]], size: int) -> Iterator[list[dict[str, Any]]]:
-    group: list[dict[str, Any]] = []
-    for row in rows:
-        group.append(row)
-        if len(group) == size:
-            yield group
-            group = []
-    if group:
-        yield group
 
 
 def _pyarrow() -> tuple[Any, Any]:

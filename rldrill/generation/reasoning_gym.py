@@ -13,6 +13,7 @@ from reasoning_gym.factory import ProceduralDataset, register_dataset
 from rldrill.exercise import Exercise, draw, load
 from rldrill.generation.lots import Split, lots
 from rldrill.problems.errors import UsageError
+from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
@@ -71,7 +72,7 @@ class Dataset(ProceduralDataset):  # type: ignore[misc, unused-ignore]
         data = exercise.data(mistakes=8)
         return {
             "question": _question(data),
-            "answer": "\n".join(f"({part['part']}) {_text(exercise, part['part'])}" for part in data["parts"]),
+            "answer": "\n".join(f"({part.label}) {_text(exercise, part)}" for part in exercise.parts),
             "metadata": {
                 "source_dataset": "rldrill",
                 "source_index": idx,
@@ -110,9 +111,8 @@ def _question(data: dict[str, Any]) -> str:
     return "\n\n".join((*data["question"], *asked, _ANSWERS))
 
 
-def _text(exercise: Exercise, label: str) -> str:
-    part = next(part for part in exercise.parts if part.label == label)
-    return answer_kind(part.kind).write(exercise.solution.answers[label])
+def _text(exercise: Exercise, part: Part) -> str:
+    return answer_kind(part.kind).write(exercise.solution.answers[part.label])
 
 
 register_dataset("rldrill", Dataset, Config)

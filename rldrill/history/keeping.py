@@ -18,19 +18,17 @@ class Keeper:
     Args:
         say: what tells the person that answers are not kept, and why.
         where: names the database; it may fail, as for a user without a home.
+
+    Attributes:
+        trouble: whether the history could not be read or written.
     """
 
     def __init__(self, say: Callable[[str], None], where: Callable[[], Path] = history_file) -> None:
         self._say = say
         self._where = where
         self._waiting: list[Attempt] = []
-        self._told = False
+        self.trouble = False
         self._writer: log.Writer | None = None
-
-    @property
-    def trouble(self) -> bool:
-        """Whether the history could not be read or written."""
-        return self._told
 
     def read(self) -> tuple[Attempt, ...]:
         """What was answered so far; nothing where that cannot be read."""
@@ -62,7 +60,7 @@ class Keeper:
                 writer.close()
 
     def _tell(self, error: Exception) -> None:
-        if not self._told:
-            self._told = True
+        if not self.trouble:
+            self.trouble = True
             why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
             self._say(f"Your answers are not kept: {why.rstrip('.')}.")

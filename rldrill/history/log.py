@@ -6,24 +6,29 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from datetime import UTC, datetime
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from rldrill.history.attempts import NAMES, Attempt
 from rldrill.history.place import HistoryError
 
-#: What brings the database from one version to the next; the version is how many of these were run.
-MIGRATIONS: tuple[str, ...] = (
-    """
-    CREATE TABLE attempt (
-        id TEXT PRIMARY KEY, time TEXT NOT NULL, sitting TEXT NOT NULL, family TEXT NOT NULL,
-        level INTEGER, seed INTEGER, revision INTEGER, part TEXT NOT NULL, parts INTEGER NOT NULL, typed TEXT NOT NULL,
-        outcome TEXT NOT NULL, misconceptions TEXT NOT NULL, hints INTEGER NOT NULL, retries INTEGER NOT NULL,
-        seconds REAL NOT NULL, credit REAL NOT NULL
-    );
-    CREATE INDEX attempt_time ON attempt (time);
-    CREATE TRIGGER nothing_changes BEFORE UPDATE ON attempt BEGIN SELECT RAISE(ABORT, 'the log only grows'); END;
-    """,
+#: What brings the database from one version to the next, statement by statement, for ``executescript`` would end the
+#: transaction; the version is how many of these were run.
+MIGRATIONS: tuple[tuple[str, ...], ...] = (
+    (
+        """
+        CREATE TABLE attempt (
+            id TEXT PRIMARY KEY, time TEXT NOT NULL, sitting TEXT NOT NULL, family TEXT NOT NULL,
+            level INTEGER, seed INTEGER, revision INTEGER,
+            part TEXT NOT NULL, parts INTEGER NOT NULL, typed TEXT NOT NULL,
+            outcome TEXT NOT NULL, misconceptions TEXT NOT NULL, hints INTEGER NOT NULL, retries INTEGER NOT NULL,
+            seconds REAL NOT NULL, credit REAL NOT NULL
+        )
+        """,
+        "CREATE INDEX attempt_time ON attempt (time)",
+        "CREATE TRIGGER nothing_changes BEFORE UPDATE ON attempt BEGIN SELECT RAISE(ABORT, 'the log only grows'); END",
+    ),
 )
 #: How long to wait for another quiz that is just writing, in seconds.
 _PATIENCE = 5.0
@@ -191,20 +196,9 @@ def _migrate(database: sqlite3.Connection, path: Path) -> None:
             copy = path.with_name(f"{path.name}.v{version}")
             with closing(sqlite3.connect(path)) as source, closing(sqlite3.connect(copy)) as target:
                 source.backup(target)
-        for script in MIGRATIONS[version:]:
-            for statement in _statements(script):
-                database.execute(statement)
+        for statement in chain.from_iterable(MIGRATIONS[version:]):
+            database.execute(statement)
         database.execute(f"PRAGMA user_version = {len(MIGRATIONS)}")
-
-
-def _statements(script: str) -> Iterator[str]:
-    """The statements of a script, one by one: ``executescript`` would end the transaction."""
-    begun = ""
-    for line in script.splitlines(keepends=True):
-        begun += line
-        if sqlite3.complete_statement(begun):
-            yield begun
-            begun = ""
 
 
 def _row(attempt: Attempt) -> tuple[Any, ...]:

@@ -7,6 +7,7 @@ from statistics import median
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import asdict
 
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
@@ -14,6 +15,8 @@ from rldrill.history.memory import Memory, Skill, remembered
 DAY = timedelta(days=1)
 #: So many days ahead are told what is due.
 AHEAD = 7
+#: So many mistakes are told.
+_MISTAKES = 8
 
 
 class Share(Struct, frozen=True):
@@ -84,31 +87,20 @@ class Progress(Struct, frozen=True):
             "format": 1,
             "answers": self.answers,
             "streak": self.streak,
-            "shares": [
-                {"name": each.name, "mastery": round(each.mastery, 4), "seen": each.seen, "of": each.of,
-                 "answers": each.answers, "right": each.right, "parts": each.parts, "seconds": each.seconds}
-                for each in self.shares
-            ],
-            "days": [
-                {"day": each.day.isoformat(), "answers": each.answers, "right": each.right, "parts": each.parts,
-                 "seconds": each.seconds}
-                for each in self.days
-            ],
+            "shares": [asdict(each) | {"mastery": round(each.mastery, 4)} for each in self.shares],
+            "days": [asdict(each) | {"day": each.day.isoformat()} for each in self.days],
             "due": list(self.due),
-            "mistakes": [{"name": each.name, "family": each.family, "times": each.times} for each in self.mistakes],
-        }  # fmt: skip
+            "mistakes": list(map(asdict, self.mistakes)),
+        }
 
 
-def progress(
-    attempts: Sequence[Attempt], groups: Mapping[str, Sequence[Skill]], now: datetime, mistakes: int = 8
-) -> Progress:
+def progress(attempts: Sequence[Attempt], groups: Mapping[str, Sequence[Skill]], now: datetime) -> Progress:
     """Work out the progress from the log.
 
     Args:
         attempts: the log; only attempts at skills of the groups count.
         groups: the skills by what they are shown under: a topic or a family.
         now: the time, in the zone in which days are told.
-        mistakes: how many mistakes are told.
     """
     memories = remembered(attempts)
     families = {skill.family for skills in groups.values() for skill in skills}
@@ -118,7 +110,7 @@ def progress(
         shares=tuple(_share(name, skills, counted, memories, now) for name, skills in groups.items()),
         days=tuple(_days(counted, now)),
         due=_due({skill: memory for skill, memory in memories.items() if skill in known}, now),
-        mistakes=tuple(_mistakes(counted, mistakes)),
+        mistakes=tuple(_mistakes(counted)),
         streak=_streak({_day(attempt, now) for attempt in counted}, now.date()),
     )
 
@@ -157,9 +149,9 @@ def _due(memories: Mapping[Skill, Memory], now: datetime) -> tuple[int, ...]:
     return tuple(ahead[days] for days in range(AHEAD + 1))
 
 
-def _mistakes(attempts: Iterable[Attempt], number: int) -> Iterable[Mistake]:
+def _mistakes(attempts: Iterable[Attempt]) -> Iterable[Mistake]:
     made = Counter((attempt.misconceptions[0], attempt.family) for attempt in attempts if attempt.misconceptions)
-    for (name, family), times in made.most_common(number):
+    for (name, family), times in made.most_common(_MISTAKES):
         yield Mistake(name, family, times)
 
 

@@ -1,7 +1,7 @@
 """The files of an exam: a worksheet and a key for every version, the manifest, and all of a roster in one."""
 
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from msgspec import Struct
@@ -87,8 +87,7 @@ def earlier(files: Files) -> list[Path]:
         except FileError:
             old = ()
         for personal in (False, True):
-            before = Files(files.output, old, Layout(), personal)
-            names += before.pdfs()
+            names += Files(files.output, old, Layout(), personal).pdfs()
     return [path for path in dict.fromkeys(names) if path.exists()]
 
 
@@ -130,7 +129,7 @@ def write(files: Files, manifest: bytes, advance: Callable[[], None] = lambda: N
     yield files.manifest
 
 
-def print_from(manifest: Path, files: Files, advance: Callable[[], None] = lambda: None) -> Iterator[Path]:
+def print_from(manifest: Path, files: Files, advance: Callable[[], None]) -> Iterator[Path]:
     """Print an exam from its manifest: whatever is not there yet.
 
     Raises:
@@ -145,7 +144,8 @@ def print_from(manifest: Path, files: Files, advance: Callable[[], None] = lambd
         advance()
         yield from written
     if files.bundle is not None and (some or not files.bundle.exists()):
-        write_bytes_atomically(files.bundle, bundled(_there(files)))
+        worksheets = map(files.worksheet, files.codes)
+        write_bytes_atomically(files.bundle, bundled([path for path in worksheets if path is not None]))
         yield files.bundle
 
 
@@ -161,7 +161,3 @@ def _waiting(manifest: Path, files: Files) -> deque[Task]:
 
 def _missing(path: Path | None) -> Path | None:
     return None if path is None or path.exists() else path
-
-
-def _there(files: Files) -> Sequence[Path]:
-    return [path for code in files.codes if (path := files.worksheet(code)) is not None]

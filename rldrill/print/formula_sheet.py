@@ -67,7 +67,7 @@ def sheet_source(names: Sequence[str], paper: Paper, *, workings: bool = False) 
     # A few sections are a handout, in the size of a book.
     size, columns, title_size = ("10pt", 1, "1.5em") if names else (_SIZES[paper], 2, "1.9em")
     margin = "(x: 1cm, top: 0.9cm, bottom: 1cm)"
-    setup = page_setup(paper, title=TITLE, left="", right="", margin=margin, size=size, columns=columns)
+    setup = page_setup(paper, title=TITLE, margin=margin, size=size, columns=columns)
     head = f"text({title_size}, strong[{text(TITLE)}]); h(1fr); remark[{text(_LEGEND)}]"
     found = sections(names, workings=workings).items()
     helpers = typst_file("rldrill.print", "formula_sheet.typ")

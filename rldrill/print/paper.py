@@ -1,4 +1,4 @@
-"""Paper: the page set-up that all PDFs share, and their compilation."""
+"""Paper: the page of all that is no exam, and how PDFs are compiled."""
 
 import ctypes
 import sys
@@ -26,30 +26,19 @@ _TIMESTAMP = 0
 TYPST_PAPERS: Mapping[Paper, str] = {"a4": "a4", "letter": "us-letter"}
 
 
-def page_setup(
-    paper: Paper,
-    *,
-    title: str,
-    left: str,
-    right: str,
-    margin: str = "2cm",
-    size: str = "10.5pt",
-    columns: int = 1,
-) -> str:
-    """What stands at the head of every Typst source.
+def page_setup(paper: Paper, *, title: str, margin: str, size: str, columns: int) -> str:
+    """What stands at the head of a Typst source that is no exam.
 
     Args:
         paper: the paper.
         title: the title in the PDF's properties.
-        left: the text at the head of every page, left.
-        right: the text at the head of every page, right.
         margin: the margin on all sides, or Typst's dictionary of margins.
         size: the size of the type.
         columns: how many columns a page has.
     """
     arguments = (
         f"paper: {quoted(TYPST_PAPERS[paper])}, margin: {margin}, size: {size}, columns: {columns}, "
-        f"title: [{text(title)}], left: [{text(left)}], right: [{text(right)}]"
+        f"title: [{text(title)}]"
     )
     return f"{typst_file('rldrill.print', 'page.typ')}#show: page-setup.with({arguments})\n{PREAMBLE}"
 

@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Iterator
 from decimal import Decimal
+from operator import le, lt
 from typing import Any
 
 from msgspec import Struct
@@ -23,6 +24,7 @@ _ASKED = re.compile(r"[Ww]hat is (?:the ([\w ]+) )?(\w)\?")
 #: What is called so lies between 0 and 1, whether the statement says it or not.
 _SHARES = frozenset({"discount", "exploration rate", "probability"})
 _PROBABILITIES = frozenset({Glyph("p", "variable"), Glyph("π", "variable"), Glyph("Pr", "word")})
+_SIGNS = {"<": lt, "≤": le}
 _DIGITS = 12
 
 
@@ -39,9 +41,7 @@ class _Range(Struct, frozen=True):
         if isinstance(value, str | tuple | bool) or parameters(value):
             return True
         number = Decimal(decimal(value, _DIGITS) or self.low)
-        return (self.low < number if self.below == "<" else self.low <= number) and (
-            number < self.high if self.above == "<" else number <= self.high
-        )
+        return _SIGNS[self.below](self.low, number) and _SIGNS[self.above](number, self.high)
 
 
 #: What is not divided by its sum may exceed 1, but no probability is negative, however it is found.

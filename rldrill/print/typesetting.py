@@ -4,7 +4,6 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterator
 from multiprocessing import get_context
-from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,7 +50,7 @@ def typeset(tasks: deque[Task]) -> Iterator[list[Path]]:
         FileError: the manifest holds a problem that cannot be made.
         OSError: a file cannot be written.
     """
-    others = min(cpu_count() or 1, len(tasks) // (_MANY // 2)) - 1
+    others = min(os.cpu_count() or 1, len(tasks) // (_MANY // 2)) - 1
     if len(tasks) < _MANY or others < 1:
         while tasks:
             yield _typeset(tasks.popleft())
@@ -76,25 +75,11 @@ def _shared(pool: "Pool", others: int, waiting: deque[Task]) -> Iterator[list[Pa
 
 
 def _typeset(task: Task) -> list[Path]:
-    with used(task.exam.layout.notation, task.exam.head.decimal_mark):
-        write(task.exam, task.make(), task.worksheet, task.key)
-    return [path for path in (task.worksheet, task.key) if path is not None]
-
-
-def write(exam: Exam, version: Version, worksheet: Path | None, key: Path | None) -> None:
-    """Typeset one version and write it.
-
-    Args:
-        exam: what all versions have in common.
-        version: the version.
-        worksheet: where the worksheet is written; None for nowhere.
-        key: where the key is written; None for nowhere.
-
-    Raises:
-        OSError: a file cannot be written.
-    """
-    people = () if version.person is None else (version.person,)
-    system = needs_system_fonts(exam.head, people)
-    for path, source in ((worksheet, worksheet_source), (key, key_source)):
-        if path is not None:
-            write_bytes_atomically(path, pdf(source(exam, version), accessible=True, system_fonts=system))
+    exam, wanted = task.exam, ((task.worksheet, worksheet_source), (task.key, key_source))
+    with used(exam.layout.notation, exam.head.decimal_mark):
+        version = task.make()
+        system = needs_system_fonts(exam.head, () if version.person is None else (version.person,))
+        for path, source in wanted:
+            if path is not None:
+                write_bytes_atomically(path, pdf(source(exam, version), accessible=True, system_fonts=system))
+    return [path for path, _ in wanted if path is not None]

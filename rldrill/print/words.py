@@ -11,10 +11,8 @@ class Words(Struct, frozen=True):
 
     name: str
     number: str
-    date: str
     version: str
     key: str
-    solutions: str
     problem: str
     points: str
     point: str
@@ -37,10 +35,8 @@ WORDS = {
     "en": Words(
         name="Name",
         number="Number",
-        date="Date",
         version="Version",
         key="Key",
-        solutions="Solutions",
         problem="Problem",
         points="points",
         point="point",
@@ -61,10 +57,8 @@ WORDS = {
     "de": Words(
         name="Name",
         number="Matrikelnummer",
-        date="Datum",
         version="Version",
         key="Lösung",
-        solutions="Lösungen",
         problem="Aufgabe",
         points="Punkte",
         point="Punkt",
@@ -93,3 +87,8 @@ def words(language: Language) -> Words:
 def written_points(words: Words, points: int) -> str:
     """Points in words."""
     return f"{points} {words.point if points == 1 else words.points}"
+
+
+def written_time(words: Words, duration: int | None, expected: int) -> str:
+    """How many minutes there are, or where that is not said how many the work takes."""
+    return words.expected.format(expected) if duration is None else words.duration.format(duration)

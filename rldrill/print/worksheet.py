@@ -7,7 +7,7 @@ from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
 from rldrill.print.exam_page import broken, ending, front, heading, label, setup
 from rldrill.print.solved import solved_part
-from rldrill.print.words import Words, words
+from rldrill.print.words import Words, words, written_time
 from rldrill.problems import parts
 from rldrill.problems.document import Paragraph
 from rldrill.problems.notations import all_in_notation
@@ -40,8 +40,7 @@ def worksheet_source(exam: Exam, version: Version) -> str:
 
 
 def _instructions(exam: Exam, version: Version, told: Words) -> str:
-    duration = exam.head.duration
-    time = told.expected.format(version.minutes) if duration is None else told.duration.format(duration)
+    time = written_time(told, exam.head.duration, version.minutes)
     own = f"{broken(exam.head.instructions)} " if exam.head.instructions else ""
     return own + plain(f"{told.rule} {told.show} {time}")
 
@@ -120,6 +119,6 @@ def _field(exercise: Exercise, part: Part, told: Words) -> str:
             return table if names else f"#answer-line([{plain(told.answer)}])"
 
 
-def even_columns(cells: int, most: int = _NARROW[1]) -> int:
+def even_columns(cells: int, most: int) -> int:
     """How many cells stand side by side, so that no line is much shorter than the others."""
     return math.ceil(cells / math.ceil(cells / most)) if cells else 1

@@ -1,5 +1,7 @@
 """What stands on the screen since a problem began, so that it can be shown once more where the window has changed."""
 
+from collections.abc import Iterable
+
 from rich.console import Console, RenderableType
 from rich.control import Control
 from rich.padding import Padding
@@ -62,6 +64,13 @@ class Display:
         """Print; a ``whole`` line, one with a path or a command, is not broken, so that it can be copied."""
         self._shown.append((content, whole))
         self._show(content, whole=whole)
+
+    def keys(self, told: Iterable[tuple[str, str]]) -> None:
+        """Print what may be typed, and what each of it does."""
+        table = Table.grid(padding=(0, 2))
+        for key, meaning in told:
+            table.add_row(Text(f"  {key}", style="bold"), words(meaning))
+        self.print(table)
 
     def indented(self, content: RenderableType) -> None:
         """Print a little to the right."""

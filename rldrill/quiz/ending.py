@@ -8,6 +8,7 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from rldrill.problems.document import counted
 from rldrill.quiz.mistakes import called
 from rldrill.quiz.session import Mistake, Session, State
 from rldrill.render.terminal import words
@@ -21,9 +22,8 @@ def ending(session: Session, seconds: float, due: int | None = None) -> Iterator
     parts = session.parts
     right = sum(part.state is State.DONE for part in parts)
     first = sum(part.first_time for part in parts)
-    counted = "1 part" if len(parts) == 1 else f"{len(parts)} parts"
     tries = f", {first} of them at the first try" if right > 1 else ", at the first try" if first else ""
-    yield (Text(f"{right} of {counted} right{tries}.", style="bold"))
+    yield (Text(f"{right} of {counted(len(parts), 'part')} right{tries}.", style="bold"))
     earned, possible = sum(part.points for part in parts), sum(part.part.points for part in parts)
     yield (Text(f"{float(earned):.3g} of {possible} points in {_time(seconds)}."))
     if session.drilled:
@@ -67,8 +67,7 @@ def _drilled(session: Session) -> str:
         any(mistake.name == session.drilled for part in record.parts for each in part.made for mistake in each)
         for record in begun
     )
-    problems = "1 problem" if len(begun) == 1 else f"{len(begun)} problems"
-    return f"“{called(session.drilled)}”: made in {made or 'none'} of {problems}."
+    return f"“{called(session.drilled)}”: made in {made or 'none'} of {counted(len(begun), 'problem')}."
 
 
 def weakest(session: Session) -> Weak | None:

@@ -105,14 +105,11 @@ class Plan:
         return f"in {days} days" if days > 1 else "tomorrow"
 
     def _within_reach(self, skill: Skill) -> Skill:
-        memory, below = self.memories[skill], Skill(skill.family, skill.level - 1)
-        if memory.lapses < 2 or below not in self._place:
+        memory, below = self.memories.get(skill), Skill(skill.family, skill.level - 1)
+        if memory is None or memory.lapses < 2 or below not in self._place:
             return skill
         easier = self.memories.get(below)
-        return skill if easier is not None and easier.last > memory.last else self._within_reach_of_new(below)
-
-    def _within_reach_of_new(self, below: Skill) -> Skill:
-        return self._within_reach(below) if below in self.memories else below
+        return skill if easier is not None and easier.last > memory.last else self._within_reach(below)
 
     def new(self) -> list[Skill]:
         """What was never asked and may be: level 1, and what is above a level that went well."""

@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from rldrill.history.progress import DAY, Day, Mistake, Progress
+from rldrill.problems.document import counted
 from rldrill.quiz.mistakes import called
 from rldrill.render.terminal import words
 
@@ -36,8 +37,8 @@ def _sections(progress: Progress) -> Iterator[tuple[RenderableType, ...]]:
     parts, right = (sum(getattr(day, name) for day in progress.days) for name in ("parts", "right"))
     yield (
         words(
-            f"{_counted(progress.answers, 'answer')} on {_counted(len(progress.days), 'day')}; "
-            f"{_percent(right, parts)} of the questions right at the first try"
+            f"{counted(progress.answers, 'answer')} on {counted(len(progress.days), 'day')}; "
+            f"{round(100 * right / parts)} % of the questions right at the first try"
             + (f"; {progress.streak} days in a row." if progress.streak > 1 else ".")
         ),
     )
@@ -83,8 +84,8 @@ def _shares(progress: Progress) -> Table:
 def _days(days: Iterable[Day]) -> Table:
     table = _plain_table(False, False, True, True, True, bar=1)
     for day in days:
-        share = day.right / day.parts if day.parts else 0.0
-        answers = _counted(day.answers, "answer")
+        share = day.right / day.parts
+        answers = counted(day.answers, "answer")
         table.add_row(
             f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, f"{_time(day.seconds)} each"
         )
@@ -125,14 +126,6 @@ def _due(due: tuple[int, ...]) -> str:
     if not any(due):
         return "Nothing in the next days; new problems wait."
     return f"{now} now, {tomorrow} more tomorrow, {sum(later)} more in the days after, up to a week."
-
-
-def _percent(part: int, whole: int) -> str:
-    return f"{round(100 * part / whole)} %" if whole else "none"
-
-
-def _counted(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def _time(seconds: float) -> str:

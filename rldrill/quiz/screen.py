@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
-from rich.table import Table
 from rich.text import Text
 
 from rldrill.entries import by_name
@@ -29,7 +28,7 @@ from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder, utc_now
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import how_to_type
-from rldrill.render.compact import WIDEST, Compact
+from rldrill.render.compact import Compact
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
@@ -249,7 +248,7 @@ class Screen:
             Text(f"  {how_to_type(first.kind, exercise.problem.parameters)}"),
             *map(Text, (*exercise.notes, *(self._keys or (SHORT_KEYS,)))),
         )
-        options = self._console.options.update(width=min(self._console.width, WIDEST))
+        options = self._console.options.update(width=self._display.width)
         taken = sum(len(self._console.render_lines(other, options)) for other in others)
         self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
         self._print()
@@ -451,10 +450,7 @@ class Screen:
             self._indented(words(followed.sentence))
 
     def _help(self) -> None:
-        grid = Table.grid(padding=(0, 2))
-        for key, meaning in HELP:
-            grid.add_row(Text(f"  {key}", style="bold"), words(meaning))
-        self._print(grid)
+        self._display.keys(HELP)
         self._indented(Text(f"Right is {RULE}. {COUNTS}", style="dim"))
 
     def summary(self, session: Session, seconds: float) -> None:
@@ -484,9 +480,7 @@ def _without_value(diagnosis: "Diagnosis") -> Equation | None:
     right = diagnosis.right
     if right is None or diagnosis.place is None or diagnosis.place.step is None:
         return right  # a formula has no value
-    if len(right.rights) == 1:
-        return None
-    return right.without_last()
+    return right.without_last() if len(right.rights) > 1 else None
 
 
 def _how(part: PartRecord) -> str:

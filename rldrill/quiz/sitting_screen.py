@@ -10,11 +10,12 @@ from functools import partial
 from rich.console import Console, RenderableType
 from rich.padding import Padding
 from rich.table import Table
-from rich.text import Text
 
 from rldrill.entries import by_name
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
+from rldrill.problems.document import counted
+from rldrill.problems.errors import reason
 from rldrill.problems.parts import Kind, Part
 from rldrill.quiz.display import Display
 from rldrill.quiz.prompt import Ask
@@ -99,9 +100,8 @@ class SittingScreen:
             self._kept = False
             if not self._told:
                 self._told = True
-                why = (error.strerror or str(error)).lower()
                 self._print(
-                    words((f"Your answers cannot be written to {sitting.path}: {why}. ", "yellow"),
+                    words((f"Your answers cannot be written to {sitting.path}: {reason(error)}. ", "yellow"),
                           "It is tried again with every answer; hand in here, or make room before you leave.")
                 )  # fmt: skip
 
@@ -112,8 +112,7 @@ class SittingScreen:
             self._print(words(line))
         problems = len(sitting.version.exercises)
         time = "" if head.duration is None else f", {head.duration} minutes"
-        count = "1 problem" if problems == 1 else f"{problems} problems"
-        self._print(words(f"{count}, {sitting.version.points} points{time}. Right is {RULE}."))
+        self._print(words(f"{counted(problems, 'problem')}, {sitting.version.points} points{time}. Right is {RULE}."))
         self._print(words((f"{_WORDS} · ? help", "dim")))
 
     def _parts(self, sitting: Sitting) -> bool:
@@ -151,7 +150,7 @@ class SittingScreen:
             elif text == "overview":
                 self._overview(sitting)
             elif text in ("?", "help"):
-                self._help()
+                self._display.keys(_HELP)
             elif text == "clear":
                 sitting.answer(place, "")
                 self._keep(sitting)
@@ -227,7 +226,7 @@ class SittingScreen:
         title = f"Problem {number + 1} of {len(sitting.version.exercises)}  {exercise.problem.family.title}"
         self._print()
         self._display.turn()
-        self._print(words((title, "bold"), f" · {'1 point' if points == 1 else f'{points} points'}"))
+        self._print(words((title, "bold"), f" · {counted(points, 'point')}"))
         self._print()
         if self._plain:
             self._print(render(linear(exercise.question())))
@@ -254,12 +253,6 @@ class SittingScreen:
             name = f"  {place.problem + 1}{sitting.part(place).label}"
             short = "–" if typed is None else " ".join(typed.split())[:40]
             table.add_row(name, sitting.exercise(place).problem.family.title, words(short))
-        self._print(table)
-
-    def _help(self) -> None:
-        table = Table.grid(padding=(0, 2))
-        for key, meaning in _HELP:
-            table.add_row(Text(f"  {key}", style="bold"), words(meaning))
         self._print(table)
 
     def _report(self, sitting: Sitting) -> None:

@@ -30,17 +30,15 @@ class Compact(Struct, frozen=True):
 
     Args:
         blocks: the document.
-        room: how many lines there are; those of the terminal without ``besides`` if None.
         besides: how many lines of the terminal something else takes.
     """
 
     blocks: tuple[Block, ...]
     besides: int
-    room: int | None = None
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         width = min(options.max_width, WIDEST)
-        room = console.size.height - self.besides if self.room is None else self.room
+        room = console.size.height - self.besides
         shortest: Lines | None = None
         for lines in _layouts(self.blocks, console, options, width):
             if shortest is None or len(lines) < len(shortest):
@@ -173,8 +171,6 @@ def _rows(units: Sequence[_Unit], width: int) -> Iterator[Lines]:
 
 
 def _row(units: Sequence[_Unit], width: int) -> Lines:
-    if len(units) == 1:
-        return units[0].lines(width)
     spare = (width - sum(unit.narrowest + _BETWEEN for unit in units) + _BETWEEN) // len(units)
     return _beside([unit.lines(unit.narrowest + spare) for unit in units])
 

@@ -89,14 +89,12 @@ class Html:
 
     def timeline(self, line: Timeline) -> str:
         """A run as a row of texts, broken where the screen ends."""
-        last = len(line.states) - 1
         steps = []
-        for time, state in enumerate(line.states):
-            ends = ' class="end"' if line.ended and time == last else ""
-            steps.append(f"<li><small>{self.text(line.times[time])}</small><b{ends}>{self.text(state)}</b></li>")
-            if time < last or time < len(line.actions):
-                action = self.text(line.actions[time]) if time < len(line.actions) else ""
-                reward = self.text(line.rewards[time]) if time < last else ""
+        for moment in line.moments():
+            ends = ' class="end"' if line.ended and moment.last else ""
+            steps.append(f"<li><small>{self.text(moment.label)}</small><b{ends}>{self.text(moment.state)}</b></li>")
+            if moment.goes_on:
+                action, reward = self.text(moment.action or ""), self.text(moment.reward or "")
                 steps.append(f'<li class="arrow"><small>{action}</small><i>⟶</i><small>{reward}</small></li>')
         return f'<ol class="timeline" aria-label="{escape(described(line))}">{"".join(steps)}</ol>'
 
@@ -128,14 +126,12 @@ class LatexHtml(Html):
 
     def timeline(self, line: Timeline) -> str:
         """A run on one line."""
-        last = len(line.states) - 1
         steps = []
-        for time, state in enumerate(line.states):
-            steps.append(" ".join(filter(None, (self.text(line.times[time]), f"<b>{self.text(state)}</b>"))))
-            if time < last or time < len(line.actions):
-                action = self.text(line.actions[time]) if time < len(line.actions) else ""
-                reward = self.text(line.rewards[time]) if time < last else ""
-                steps.append(f"—{', '.join(filter(None, (action, reward)))}→")
+        for moment in line.moments():
+            steps.append(" ".join(filter(None, (self.text(moment.label), f"<b>{self.text(moment.state)}</b>"))))
+            if moment.goes_on:
+                above = filter(None, (moment.action, moment.reward))
+                steps.append(f"—{', '.join(map(self.text, above))}→")
         return f"<p>{' '.join(steps)}</p>"
 
 

@@ -2,23 +2,16 @@
 
 from collections.abc import Iterable
 
-from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
+from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
 from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.markdown import latex_block_equation
-from rldrill.render.mathematics.latex import latex_plain, latex_typed, typed
+from rldrill.render.mathematics.latex import latex_text, latex_typed, typed
 from rldrill.render.pictures.tikz import tikz
 
 
 def latex_document(blocks: Iterable[Block]) -> str:
     """Blocks one under the other."""
     return "\n".join(map(latex_block, blocks)) + "\n"
-
-
-def latex_text(text: str) -> str:
-    """Running text with its mathematics; every sign of it stands for itself."""
-    return "".join(
-        latex_plain(piece) if isinstance(piece, str) else f"${latex_typed(piece)}$" for piece in pieces(text)
-    )
 
 
 def latex_block(block: Block) -> str:
@@ -50,14 +43,12 @@ def latex_block(block: Block) -> str:
 
 
 def _timeline(line: Timeline) -> str:
-    last = len(line.states) - 1
     steps: list[str] = []
-    for time, state in enumerate(line.states):
-        frame = rf"\fbox{{{latex_text(state)}}}"
-        when = latex_text(line.times[time])
+    for moment in line.moments():
+        frame = rf"\fbox{{{latex_text(moment.state)}}}"
+        when = latex_text(moment.label)
         steps.append(rf"$\overset{{\text{{{when}}}}}{{\text{{{frame}}}}}$" if when else frame)
-        if time < last or time < len(line.actions):
-            action = latex_text(line.actions[time]) if time < len(line.actions) else ""
-            reward = latex_text(line.rewards[time]) if time < last else ""
+        if moment.goes_on:
+            action, reward = latex_text(moment.action or ""), latex_text(moment.reward or "")
             steps.append(rf"$\xrightarrow[\text{{{reward}}}]{{\text{{{action}}}}}$")
     return "\n{\\raggedright " + " ".join(steps) + "\\par}\n"

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from rldrill.problems.document import Beside, Block, Document, Paragraph, Table
-from rldrill.problems.pictures import Picture, Timeline
+from rldrill.problems.pictures import Moment, Picture, Timeline
 
 
 def linear(blocks: Iterable[Block]) -> Document:
@@ -23,7 +23,7 @@ def _linear(blocks: Iterable[Block]) -> Iterator[Block]:
             case Table(header, rows):
                 yield from (Paragraph(_row(header, row)) for row in rows)
             case Timeline():
-                yield from (Paragraph(_step(block, time)) for time in range(len(block.states)))
+                yield from (Paragraph(_step(moment)) for moment in block.moments())
             case _:
                 yield block
 
@@ -33,11 +33,8 @@ def _row(header: tuple[str, ...], row: tuple[str, ...]) -> str:
     return ", ".join(f"{title}: {cell}" if title else cell for title, cell in zip(header, row, strict=True)) + "."
 
 
-def _step(line: Timeline, time: int) -> str:
+def _step(moment: Moment) -> str:
     """``t = 0: state cool, action fast, then r₁ = 2``."""
-    told = [f"state {line.states[time]}"]
-    if time < len(line.actions) and line.actions[time]:
-        told.append(f"action {line.actions[time]}")
-    if time < len(line.rewards) and line.rewards[time]:
-        told.append(f"then {line.rewards[time]}")
-    return f"{line.times[time]}: {', '.join(told)}."
+    action = f", action {moment.action}" if moment.action else ""
+    reward = f", then {moment.reward}" if moment.reward else ""
+    return f"{moment.label}: state {moment.state}{action}{reward}."

@@ -17,7 +17,7 @@ from rich.padding import Padding
 from rich.table import Table as RichTable
 from rich.text import Text
 
-from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
+from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, counted
 from rldrill.problems.mathematics import Math, Row, is_sign
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
@@ -310,7 +310,7 @@ def asked(part: Part, *, only: bool = False) -> RenderableType:
 
 def _asked(part: Part, spelling: Spelling, width: int, *, only: bool) -> Text:
     letter = "" if only else f"({part.label}) "
-    points = f"[{part.points}{GLUE}{'point' if part.points == 1 else 'points'}]"
+    points = f"[{counted(part.points, 'point').replace(' ', GLUE)}]"
     text = _wrapped(f"{letter}{spelling.inline(part.ask, glued=True)} {points}", width)
     text.stylize("bold", 0, len(letter))
     text.stylize("dim", len(text) - len(points))

@@ -100,14 +100,11 @@ def _apart(items: tuple[Math, ...], room: float) -> str:
     )
 
 
-def document(blocks: Document, room: float = PAGE) -> str:
-    """Blocks one under the other; short equations and narrow tables that follow each other share a line.
-
-    ``room`` as for a block.
-    """
+def document(blocks: Document) -> str:
+    """Blocks one under the other; short equations and narrow tables that follow each other share a line."""
     result: list[str] = []
     waiting: list[str] = []
-    for item in (*_announced_together(tuple(_short_ones_apart(blocks)), room), None):
+    for item in (*_announced_together(tuple(_short_ones_apart(blocks))), None):
         if isinstance(item, Equation) and _is_short(item):
             waiting.append(f"({quoted(unicode_text(item))}, ${line(item)}$)")
             continue
@@ -120,7 +117,7 @@ def document(blocks: Document, room: float = PAGE) -> str:
             sentences, tables = (", ".join(f"[{block(each)}]" for each in column) for column in columns)
             result.append(f"#announced(({widths}), ({sentences}), ({tables}))\n")
         elif item is not None:
-            result.append(block(item, room))
+            result.append(block(item))
     return "".join(result)
 
 
@@ -140,7 +137,7 @@ class _Announced(Struct, frozen=True):
     widths: tuple[float, ...]
 
 
-def _announced_together(blocks: Document, room: float) -> Iterator[Block | _Announced]:
+def _announced_together(blocks: Document) -> Iterator[Block | _Announced]:
     """The blocks, those side by side that announced tables are narrow enough for."""
     at = 0
     while at < len(blocks):
@@ -148,12 +145,12 @@ def _announced_together(blocks: Document, room: float) -> Iterator[Block | _Anno
         widths: list[float] = []
         while (pair := _pair(blocks[at + 2 * len(pairs) :])) and sum(widths) + (
             wide := _width_of(*pair, lines=2)
-        ) <= room:
+        ) <= PAGE:
             pairs.append(pair)
             widths.append(wide + _BETWEEN)
         if len(pairs) > 1:
             whole = [_width_of(*pair, lines=1) + _BETWEEN for pair in pairs]
-            yield _Announced(tuple(pairs), tuple(whole if sum(whole) <= room else widths))
+            yield _Announced(tuple(pairs), tuple(whole if sum(whole) <= PAGE else widths))
             at += 2 * len(pairs)
         else:
             yield blocks[at]

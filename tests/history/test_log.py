@@ -161,7 +161,7 @@ def test_two_at_once_write_all(tmp_path: Path) -> None:
 def test_an_older_version_is_copied_and_brought_up_to_date(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "history.db"
     log.append(path, [FIRST])
-    monkeypatch.setattr(log, "MIGRATIONS", (*log.MIGRATIONS, "CREATE TABLE another (id TEXT);\n"))
+    monkeypatch.setattr(log, "MIGRATIONS", (*log.MIGRATIONS, ("CREATE TABLE another (id TEXT)",)))
     assert log.read(path) == (FIRST,)
     with sqlite3.connect(path) as new, sqlite3.connect(tmp_path / "history.db.v1") as old:
         assert new.execute("PRAGMA user_version").fetchone() == (2,)
@@ -178,7 +178,7 @@ def test_a_migration_that_fails_changes_nothing(tmp_path: Path, monkeypatch: pyt
     path = tmp_path / "history.db"
     log.append(path, [FIRST])
     before = log.MIGRATIONS
-    monkeypatch.setattr(log, "MIGRATIONS", (*before, "DELETE FROM attempt;\nDROP TABLE nowhere;\n"))
+    monkeypatch.setattr(log, "MIGRATIONS", (*before, ("DELETE FROM attempt", "DROP TABLE nowhere")))
     with pytest.raises(sqlite3.OperationalError):
         log.append(path, [SECOND])
     monkeypatch.setattr(log, "MIGRATIONS", before)
@@ -188,7 +188,7 @@ def test_a_migration_that_fails_changes_nothing(tmp_path: Path, monkeypatch: pyt
 def test_a_newer_version_is_refused_and_not_touched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "history.db"
     with monkeypatch.context() as newer:
-        newer.setattr(log, "MIGRATIONS", (*log.MIGRATIONS, "CREATE TABLE another (id TEXT);\n"))
+        newer.setattr(log, "MIGRATIONS", (*log.MIGRATIONS, ("CREATE TABLE another (id TEXT)",)))
         log.append(path, [FIRST])
     before = {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in tmp_path.iterdir()}
     for use in (log.read, log.forget, lambda path: log.append(path, [SECOND])):

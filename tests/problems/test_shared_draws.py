@@ -137,7 +137,7 @@ def test_a_policy_has_the_values_that_were_drawn(
 def test_a_policy_that_mixes_has_the_values_that_were_drawn() -> None:
     for rng, gamma in product(streams(30), (HALF, TWO_THIRDS)):
         shape = Shape(states=2, actions=2, branches=2, denominators=(2,))
-        model, policy, values = draw_mixed(rng, draw_setting(rng), shape, gamma, (2, 4))
+        model, policy, values = draw_mixed(rng, draw_setting(rng), shape, gamma)
         gone_through(model, policy, values, gamma)  # type: ignore[arg-type]
         assert all(chance > 0 for row in policy.values() for chance in row.values())
         for state in model.states:

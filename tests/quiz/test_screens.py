@@ -20,9 +20,9 @@ MODEL = (Paragraph("The MDP has these transitions (on the arrows: probability, r
 
 
 def shown(blocks: tuple[Block, ...], room: int, width: int = 80) -> list[str]:
-    console = Console(file=StringIO(), width=width, color_system=None)
+    console = Console(file=StringIO(), width=width, height=room, color_system=None)
     with console.capture() as captured:
-        console.print(Compact(blocks, 0, room))
+        console.print(Compact(blocks, 0))
     return captured.get().splitlines()
 
 

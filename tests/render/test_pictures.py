@@ -42,7 +42,7 @@ from rldrill.render.typst import block
 from rldrill.render.unicode import unicode_text
 
 ROOT = Path(__file__).parents[2]
-SETUP = page_setup("a4", title="t", left="", right="", margin="2cm")
+SETUP = page_setup("a4", title="t", margin="2cm", size="10.5pt", columns=1)
 SHAPES = [(1, 2, 2), (2, 1, 2), (2, 2, 2), (2, 3, 2), (3, 2, 2), (4, 2, 1)]
 
 

@@ -7,7 +7,7 @@ from rich.console import Console
 from rldrill.problems.document import Block, Table
 from rldrill.problems.pictures import Arrow, BackupDiagram, Bars, Branch, GridPicture, Node, StateDiagram, Timeline
 from rldrill.render.pictures.graph import MOST_ARROWS, scene
-from rldrill.render.pictures.raster import _on, _row
+from rldrill.render.pictures.raster import _row
 from rldrill.render.pictures.text import lines
 from rldrill.render.terminal import plain, render
 
@@ -84,8 +84,3 @@ def test_a_run_that_fits_is_not_torn_by_the_room_behind_its_last_action() -> Non
 
 def test_words_beyond_the_end_of_a_row_stand_where_they_belong() -> None:
     assert _row([1, 0], {5: "x₀"}) == "⠁    x₀"
-
-
-def test_a_curve_passes_the_middle_between_its_control_and_the_middle_of_its_ends() -> None:
-    start, control, end = (0.0, 0.0), (4.0, 10.0), (6.0, 2.0)  # the middle of the ends is (3, 1)
-    assert [_on(start, control, end, t) for t in (0, 0.5, 1)] == [start, (3.5, 5.5), end]

@@ -58,7 +58,7 @@ HOSTILE = [
     "~",
     "=h",
 ]
-SETUP = page_setup("a4", title="t", left="", right="", margin="2cm")
+SETUP = page_setup("a4", title="t", margin="2cm", size="10.5pt", columns=1)
 NARROW = SETUP + "#set page(width: 9cm, height: 25cm, margin: 1cm)\n#set text(size: 9pt)\n"
 CENTIMETRE = 72 / 2.54
 
@@ -81,7 +81,8 @@ def exercises(seeds: Sequence[int]) -> list[Exercise]:
 def everything(room: float, seeds: Sequence[int]) -> str:
     parts = [block(formula.equation(), room) for formula in formulas().values()]
     for exercise in exercises(seeds):
-        parts += [document(exercise.question(), room), document(exercise.working(), room)]
+        parts += [block(each, room) for each in (*exercise.question(), *exercise.working())]
+        parts += [document(exercise.question()), document(exercise.working())] if room == PAGE else []
         for part in exercise.parts:
             parts += [block(Paragraph(f"({part.label}) {part.ask}")), block(exercise.answer(part), room)]
     return "".join(parts)

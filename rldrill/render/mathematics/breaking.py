@@ -1,6 +1,6 @@
 """Long mathematics in lines that fit: broken before its relations, else its plus and minus signs, else its factors."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 
 from rldrill.problems.mathematics import Glyph, Math, Row, is_sign
@@ -21,17 +21,17 @@ def broken(math: Math, wide: Wide, most: int) -> tuple[Math, ...]:
     if not isinstance(math, Row):
         return (math,)
     lines = [math]
-    for begins in (_is_relation, _is_term, _is_factor):
+    for begins in (begins_side, _is_term, _is_factor):
         shorter: list[Row] = []
         for line in lines:
             further = bool(shorter)
             fits = wide(line, further) <= most
-            shorter += [line] if fits else _packed(_parted(line.items, begins), wide, most, further=further)
+            shorter += [line] if fits else packed(grouped(line.items, begins), wide, most, further=further)
         lines = shorter
     return tuple(lines)
 
 
-def _packed(pieces: Iterable[Sequence[Math]], wide: Wide, most: int, *, further: bool) -> list[Row]:
+def packed(pieces: Iterable[Sequence[Math]], wide: Wide, most: int, *, further: bool = False) -> list[Row]:
     """The pieces on as few lines as they fit, which stand by themselves or under others."""
     lines: list[Row] = []
     for piece in pieces:
@@ -43,13 +43,14 @@ def _packed(pieces: Iterable[Sequence[Math]], wide: Wide, most: int, *, further:
     return lines
 
 
-def _parted(items: Sequence[Math], begins: Callable[[Math, Math], bool]) -> Iterator[Sequence[Math]]:
-    """The items in pieces, a new one before each that begins one."""
+def grouped(items: tuple[Math, ...], begins: Callable[[Math, Math], bool]) -> list[tuple[Math, ...]]:
+    """The items in groups, a new one where ``begins(before, item)`` holds."""
     starts = [0, *(index for index, pair in enumerate(pairwise(items), 1) if begins(*pair)), len(items)]
-    return (items[start:stop] for start, stop in pairwise(starts))
+    return [items[start:stop] for start, stop in pairwise(starts)]
 
 
-def _is_relation(_: Math, item: Math) -> bool:
+def begins_side(_: Math, item: Math) -> bool:
+    """Whether a side of an equation begins here, with its relation."""
     return isinstance(item, Glyph) and item.style == "relation"
 
 

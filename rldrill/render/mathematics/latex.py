@@ -1,9 +1,9 @@
 """Mathematics as LaTeX, for Markdown, notebooks and flash cards."""
 
-import re
 from collections.abc import Iterator
 from functools import lru_cache
 
+from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import (
     Accent,
     Big,
@@ -19,6 +19,7 @@ from rldrill.problems.mathematics import (
     is_sign,
     with_joined_scripts,
 )
+from rldrill.render.mathematics.scripts import taken_apart
 from rldrill.render.mathematics.spacing import is_tall, needs_space, parted
 from rldrill.render.mathematics.unicode import ABOVE, BELOW, unmarked
 
@@ -43,9 +44,6 @@ _SPELLED = {
 _LOWERED = {small: _COMMANDS.get(sign, sign) for sign, small in BELOW.items()}
 _RAISED = {small: _COMMANDS.get(sign, sign) for sign, small in ABOVE.items()}
 _PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
-#: A letter or word with its own index and primes: ``s₁′``.
-_NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
-_DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _OPERATORS = {Glyph(word, "word") for word in _PLAIN_WORDS}
 
 
@@ -56,6 +54,13 @@ def latex_plain(text: str) -> str:
     """
     spelled = (("".join(map(_spelled, piece)), whole) for piece, whole in parted(text))
     return "".join(rf"\mbox{{{piece}}}" if whole else piece for piece, whole in spelled)
+
+
+def latex_text(text: str) -> str:
+    """Running text with its mathematics; every sign of it stands for itself."""
+    return "".join(
+        latex_plain(piece) if isinstance(piece, str) else f"${latex_typed(piece)}$" for piece in pieces(text)
+    )
 
 
 def latex_typed(math: Math) -> str:
@@ -141,10 +146,8 @@ def _glyph(text: str, style: str, below: str = "", above: str = "") -> str:
     if style not in ("variable", "word"):  # a comma within a number, and none behind which there is room
         sign = text.replace(",", "{,}") if style == "number" else _COMMANDS.get(text, text)
         return sign + _scripts(below, above)
-    match = _NAME.fullmatch(text)
-    assert match is not None
-    lower = " , ".join(filter(None, (match["digits"].translate(_DIGITS), below)))
-    return _named(match["stem"], style) + "'" * len(match["primes"]) + _scripts(lower, above)
+    stem, digits, primes = taken_apart(text, style)
+    return _named(stem, style) + "'" * primes + _scripts(" , ".join(filter(None, (digits, below))), above)
 
 
 def _named(stem: str, style: str) -> str:

@@ -1,6 +1,5 @@
 """Mathematics as MathML, which every browser sets and every screen reader reads."""
 
-import re
 from collections.abc import Sequence
 from html import escape
 
@@ -21,25 +20,22 @@ from rldrill.problems.mathematics import (
     is_sign,
     with_joined_scripts,
 )
-from rldrill.render.mathematics.spacing import is_tall, needs_space
+from rldrill.render.mathematics.scripts import on_one_line, taken_apart
+from rldrill.render.mathematics.spacing import is_tall, needs_space, opens
 from rldrill.render.mathematics.unicode import unmarked
 
-_NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
-_DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _BIGS = {"Σ": "∑", "Π": "∏", "∏": "∏", "∑": "∑", "∫": "∫"}
 _MARKS = {"hat": "^", "bar": "‾", "tilde": "~"}
-_BLOCK = ' display="block"'
 #: A sign that belongs to what follows, as in −5.
 _SIGNED: dict[Math, str] = {
     Glyph(sign, "operator"): f'<mo form="prefix" lspace="0" rspace="0">{sign}</mo>' for sign in "+−±"
 }
-_BEFORE_A_SIGN = ("relation", "operator", "punctuation")
 _THIN = '<mspace width="0.17em"></mspace>'
 
 
-def mathml(math: Math, *, display: bool = False) -> str:
-    """Mathematics as a ``math`` element, within a line or on one of its own."""
-    return f"<math{_BLOCK if display else ''}>{element(math)}</math>"
+def mathml(math: Math) -> str:
+    """Mathematics as a ``math`` element within a line."""
+    return f"<math>{element(math)}</math>"
 
 
 def element(math: Math) -> str:
@@ -59,7 +55,8 @@ def element(math: Math) -> str:
             brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)
             return f"<mrow>{brackets[0]}{element(body)}{brackets[1]}</mrow>"
         case Big(sign, below, above):
-            return _limits(_big(sign), below, above)
+            lower, upper = ("" if limit is None else element(limit) for limit in (below, above))
+            return _scripts(_big(sign), lower, upper, ("munder", "mover", "munderover"))
         case Root(body):
             return f"<msqrt>{element(body)}</msqrt>"
         case Accent(body, mark):
@@ -105,23 +102,14 @@ def _big(sign: str) -> str:
     return f'<mo movablelimits="false" lspace="0.1em" rspace="0.17em">{escape(sign)}</mo>'
 
 
-def _limits(base: str, below: Math | None, above: Math | None) -> str:
-    if below is not None and above is not None:
-        return f"<munderover>{base}{element(below)}{element(above)}</munderover>"
-    if below is not None:
-        return f"<munder>{base}{element(below)}</munder>"
-    return base if above is None else f"<mover>{base}{element(above)}</mover>"
-
-
 def _taken_apart(glyph: Glyph) -> tuple[str, str, str]:
     """A glyph as base, subscript and superscript: ``s₁′`` has all three."""
-    match = _NAME.fullmatch(glyph.text)
-    if match is None or glyph.style not in ("variable", "word") or not match["stem"]:
+    stem, digits, primes = taken_apart(glyph.text, glyph.style)
+    if not stem:
         return _sign(glyph.text, glyph.style), "", ""
-    digits = match["digits"].translate(_DIGITS)
     below = f"<mn>{digits}</mn>" if digits else ""
-    above = f"<mo>{'′' * len(match['primes'])}</mo>" if match["primes"] else ""
-    return _sign(match["stem"], glyph.style), below, above
+    above = f"<mo>{'′' * primes}</mo>" if primes else ""
+    return _sign(stem, glyph.style), below, above
 
 
 def _sign(text: str, style: str) -> str:
@@ -146,8 +134,8 @@ def _sign(text: str, style: str) -> str:
 def _script(script: Script) -> str:
     body, below, above = script.body, script.below, script.above
     base, digits, primes = _taken_apart(body) if isinstance(body, Glyph) else (element(body), "", "")
-    lower = [part for part in (digits, "" if below is None else element(_on_one_line(below))) if part]
-    upper = [part for part in (primes, "" if above is None else element(_on_one_line(above))) if part]
+    lower = [part for part in (digits, "" if below is None else element(on_one_line(below))) if part]
+    upper = [part for part in (primes, "" if above is None else element(on_one_line(above))) if part]
     return _scripts(base, _joined(lower), _joined(upper))
 
 
@@ -155,21 +143,10 @@ def _joined(parts: Sequence[str]) -> str:
     return parts[0] if len(parts) == 1 else f"<mrow>{''.join(parts)}</mrow>" if parts else ""
 
 
-def _scripts(base: str, below: str, above: str) -> str:
-    if below and above:
-        return f"<msubsup>{base}{below}{above}</msubsup>"
-    if below:
-        return f"<msub>{base}{below}</msub>"
-    return f"<msup>{base}{above}</msup>" if above else base
-
-
-def _on_one_line(math: Math) -> Math:
-    """Small print has no room for one number above another: ``3/2``."""
-    if isinstance(math, Row):
-        return Row(tuple(map(_on_one_line, math.items)))
-    if isinstance(math, Fraction) and isinstance(math.numerator, Glyph) and isinstance(math.denominator, Glyph):
-        return Row((math.numerator, Glyph("/", "punctuation"), math.denominator))
-    return math
+def _scripts(base: str, below: str, above: str, tags: Sequence[str] = ("msub", "msup", "msubsup")) -> str:
+    """What stands below and above; the tags are those for the one, the other and both."""
+    tag = tags[2 if below and above else 0 if below else 1]
+    return f"<{tag}>{base}{below}{above}</{tag}>" if below or above else base
 
 
 def _row(items: tuple[Math, ...]) -> str:
@@ -178,10 +155,5 @@ def _row(items: tuple[Math, ...]) -> str:
     for before, after, item in zip((None, *bare), bare, items, strict=False):
         if before is not None and needs_space(before, after):
             written.append(_THIN)
-        written.append(_SIGNED[item] if item in _SIGNED and (before is None or _opens(before)) else element(item))
+        written.append(_SIGNED[item] if item in _SIGNED and (before is None or opens(before)) else element(item))
     return "".join(written)
-
-
-def _opens(before: Math) -> bool:
-    """Whether a sign behind this belongs to what follows."""
-    return isinstance(before, Big) or (isinstance(before, Glyph) and before.style in _BEFORE_A_SIGN)

@@ -18,8 +18,8 @@ def parted(text: str) -> Iterator[tuple[str, bool]]:
 
 def needs_space(before: Math, item: Math) -> bool:
     """Whether a word stands beside a letter, a number or another word."""
-    return (_is_word(before) and (_is_name(item) or isinstance(item, Fraction | Accent))) or (
-        _is_word(item) and (_is_name(before) or isinstance(before, Fence))
+    return (is_word(before) and (_is_name(item) or isinstance(item, Fraction | Accent))) or (
+        is_word(item) and (_is_name(before) or isinstance(before, Fence))
     )
 
 
@@ -36,7 +36,15 @@ def is_tall(math: Math) -> bool:
             return is_tall(math.body)
 
 
-def _is_word(math: Math) -> bool:
+def opens(before: Math) -> bool:
+    """Whether a sign behind this belongs to what follows, as in = −5."""
+    return isinstance(before, Big) or (
+        isinstance(before, Glyph) and before.style in ("relation", "operator", "punctuation")
+    )
+
+
+def is_word(math: Math) -> bool:
+    """Whether something is a word or a name, set upright."""
     return isinstance(math, Glyph) and math.style == "word"
 
 

@@ -53,17 +53,17 @@ def _box(math: Math, write: Write) -> Stack:
     match math:
         case Tabular(rows, left, right):
             return _fenced(_cells(rows, write), left, right)
-        case Row(items) if _has_grid(math):
+        case Row(items):
             return _beside(items, write)
-        case Fence(body, left, right) if _has_grid(math):
+        case Fence(body, left, right):
             return _fenced(_box(body, write), left, right)
-        case Marked(body):
-            return _box(body, write)
-        case Script(body, below, above) if _has_grid(math):
+        case Script(body, below, above):
             box = _box(body, write)
             raised = write(Script(word(""), below, above))
             top = [line + (raised if index == 0 else " " * len(raised)) for index, line in enumerate(box.lines)]
             return Stack(tuple(top), box.base)
+        case Marked(body):
+            return _box(body, write)
         case _:
             return Stack((write(math),))
 

@@ -4,7 +4,6 @@ Every text ends up inside a quoted string or escaped, so that no name can be rea
 """
 
 import re
-from collections.abc import Callable
 
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import (
@@ -23,7 +22,9 @@ from rldrill.problems.mathematics import (
     Tabular,
     with_joined_scripts,
 )
-from rldrill.render.mathematics.spacing import parted
+from rldrill.render.mathematics.breaking import begins_side, grouped, packed
+from rldrill.render.mathematics.scripts import on_one_line, taken_apart
+from rldrill.render.mathematics.spacing import is_word, parted
 from rldrill.render.mathematics.unicode import unicode
 
 _FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tr", "det"}
@@ -43,10 +44,8 @@ _FENCES = {
 }  # fmt: skip
 _ACCENTS = {"hat": "hat", "bar": "overline", "tilde": "tilde"}
 CLASSES: dict[Style, str] = {"operator": "binary", "relation": "relation", "punctuation": "punctuation"}
-_NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
 _SEPARATORS = (Glyph(",", "punctuation"), Glyph(";", "punctuation"))
 _COMMA, _MINUS = Glyph(",", "punctuation"), Glyph("−", "operator")
-_DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 #: Equations of at most this many signs stand side by side, and are not broken; nor is a side of at most so many.
 SHORT, _SIDE = 24, 48
 
@@ -108,14 +107,7 @@ def _sides(items: tuple[Math, ...]) -> str:
     whole = Row(items)
     if len(unicode(whole)) <= SHORT:
         return equation(whole, "kept")
-    first, *others = grouped(items, lambda _, item: isinstance(item, Glyph) and item.style == "relation")
-    sides = [Row(first)]
-    for side in others:
-        longer = Row((*sides[-1].items, *side))
-        if len(unicode(longer)) <= _SIDE:
-            sides[-1] = longer
-        else:
-            sides.append(Row(side))
+    sides = packed(grouped(items, begins_side), lambda side, _: len(unicode(side)), _SIDE)
     return " ".join(equation(side, "kept" if len(unicode(side)) <= _SIDE else "eq") for side in sides)
 
 
@@ -134,24 +126,14 @@ def relation(sign: str) -> str:
     return _sign(sign, "relation") if sign else ""
 
 
-def grouped(items: tuple[Math, ...], begins: Callable[[Math, Math], bool]) -> list[tuple[Math, ...]]:
-    """Mathematics in groups: a new one where ``begins(before, item)`` holds."""
-    starts = [at for at in range(len(items)) if at == 0 or begins(items[at - 1], items[at])]
-    return [items[start:end] for start, end in zip(starts, [*starts[1:], len(items)], strict=True)]
-
-
 # Glyphs and scripts
 
 
 def _taken_apart(glyph: Glyph) -> tuple[str, str, str]:
     """A glyph as base, subscript and superscript: ``s₁′`` has all three."""
-    match = _NAME.fullmatch(glyph.text)
-    if match is None or glyph.style not in ("variable", "word"):
-        return _sign(glyph.text, glyph.style), "", ""
-    primes = " ".join(["prime"] * len(match["primes"]))
-    if not match["stem"]:
-        return primes or quoted(glyph.text), "", ""
-    return _sign(match["stem"], glyph.style), match["digits"].translate(_DIGITS), primes
+    stem, digits, primes = taken_apart(glyph.text, glyph.style)
+    above = " ".join(["prime"] * primes)
+    return (_sign(stem, glyph.style), digits, above) if stem else (above or quoted(glyph.text), "", "")
 
 
 def _sign(text: str, style: Style) -> str:
@@ -191,16 +173,7 @@ def _attached(base: str, below: str, above: str) -> str:
 
 
 def _optional(math: Math | None) -> str:
-    return "" if math is None else typst(_on_one_line(math))
-
-
-def _on_one_line(math: Math) -> Math:
-    """Small print has no room for one number above another: ``3/2``."""
-    if isinstance(math, Row):
-        return Row(tuple(map(_on_one_line, math.items)))
-    if isinstance(math, Fraction) and isinstance(math.numerator, Glyph) and isinstance(math.denominator, Glyph):
-        return Row((math.numerator, Glyph("/", "punctuation"), math.denominator))
-    return math
+    return "" if math is None else typst(on_one_line(math))
 
 
 def typst_fence(sign: str) -> str:
@@ -224,7 +197,7 @@ def typst_row(items: tuple[Math, ...]) -> str:
         if position and items[position - 1] == _COMMA and not isinstance(_head(item), Glyph):
             result.append(" thin")  # which Typst leaves before letters and numbers only
         # A word keeps the space beside it in Typst, which a bracket after it must not have.
-        close = position > 0 and _is_word(items[position - 1]) and isinstance(item, Fence)
+        close = position > 0 and is_word(items[position - 1]) and isinstance(item, Fence)
         result.append(typst(item) if close or not result else f" {typst(item)}")
     return "".join(result) or '""'
 
@@ -234,10 +207,6 @@ def _head(item: Math) -> Math:
     if isinstance(item, Script):
         return _head(item.body)
     return EMPTY if isinstance(item, Glyph) and item.style == "operator" else item
-
-
-def _is_word(item: Math) -> bool:
-    return isinstance(item, Glyph) and item.style == "word"
 
 
 def _is_prime(item: Math) -> bool:

@@ -3,7 +3,9 @@
 from msgspec import Struct
 
 from rldrill.problems.mathematics import Big, Fence, Fraction, Glyph, Math, Row, Script, Tabular
-from rldrill.render.mathematics.typst import CLASSES, grouped, typst_fence, typst_row
+from rldrill.render.mathematics.breaking import grouped
+from rldrill.render.mathematics.spacing import opens
+from rldrill.render.mathematics.typst import typst_fence, typst_row
 
 
 class _Tree(Struct, frozen=True):
@@ -56,7 +58,7 @@ def _ended(tree: _Tree, bracket: str) -> _Tree:
 def _begins_term(before: Math, item: Math) -> bool:
     if isinstance(before, Glyph) and before.style == "punctuation" and before.text in (",", ";"):
         return True
-    if isinstance(before, Big) or (isinstance(before, Glyph) and before.style in CLASSES):
+    if opens(before):
         return False
     return isinstance(item, Glyph) and (
         item.style == "relation" or (item.style == "operator" and item.text in ("+", "−", "±"))

@@ -16,6 +16,7 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
 )
+from rldrill.render.mathematics.spacing import is_word, opens
 
 #: Signs and their small forms below and above the line.
 BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
@@ -26,6 +27,8 @@ ABOVE = dict(
         strict=True,
     )
 )
+#: Primes stand below the line as they are.
+_LOWERED = BELOW | {"′": "′"}
 _LARGE = str.maketrans({small: large for large, small in ABOVE.items()})
 _SMALL_POWER = re.compile(f"(?<![^\\W\\d_])e([{re.escape(''.join(ABOVE.values()))}]+)")
 _PARTIAL = Glyph("∂", "variable")
@@ -108,17 +111,17 @@ def _row(items: tuple[Math, ...]) -> str:
     for position, item in enumerate(items):
         if isinstance(item, Glyph) and item.style == "operator" and item.text in "+−±":
             # A sign with nothing before it belongs to what follows; between two terms it stands free.
-            binary = position > 0 and not _opens(items[position - 1])
+            binary = position > 0 and not opens(items[position - 1])
             text += f" {item.text} " if binary else item.text
         else:
             if isinstance(item, Big) and text and text[-1] not in " ([{|":
                 text += " "
             if position and isinstance(items[position - 1], Fence) and _is_letter(item):
                 text += " "
-            if isinstance(item, Glyph) and item.style == "word" and text and text[-1].isalnum():
+            if is_word(item) and text and text[-1].isalnum():
                 text += " "
             text += unicode(item)
-            if _is_word(item) and position + 1 < len(items) and isinstance(items[position + 1], Glyph | Script):
+            if is_word(item) and position + 1 < len(items) and isinstance(items[position + 1], Glyph | Script):
                 following = items[position + 1]
                 if not (isinstance(following, Glyph) and following.style in ("punctuation", "relation", "operator")):
                     text += " "
@@ -133,17 +136,9 @@ def _is_plain_product(item: Math) -> bool:
     )
 
 
-def _is_word(item: Math) -> bool:
-    return isinstance(item, Glyph) and item.style == "word"
-
-
 def _is_letter(item: Math) -> bool:
     head = item.body if isinstance(item, Script) else item
     return isinstance(head, Glyph) and head.style in ("variable", "word")
-
-
-def _opens(item: Math) -> bool:
-    return isinstance(item, Big) or (isinstance(item, Glyph) and item.style in ("relation", "operator", "punctuation"))
 
 
 def _grouped(math: Math) -> str:
@@ -161,7 +156,10 @@ def _grouped(math: Math) -> str:
 
 def scripts(below: Math | None, above: Math | None) -> str:
     """A subscript and a superscript as text."""
-    return _lowered(below) + _raised(above)
+    lowered = "" if below is None else _shifted(below, _LOWERED, "_")
+    if above == Glyph("*", "operator"):
+        return f"{lowered}*"
+    return lowered if above is None else lowered + _shifted(above, ABOVE, "^")
 
 
 def _script(body: Math, below: Math | None, above: Math | None) -> str:
@@ -175,33 +173,15 @@ def _script(body: Math, below: Math | None, above: Math | None) -> str:
 
 def _is_readable_above(math: Math) -> bool:
     """Whether an exponent can be written with small signs, and holds no words such as ln."""
-    words = any(
-        isinstance(item, Glyph) and item.style == "word" for item in (math.items if isinstance(math, Row) else ())
-    )
-    return _all_shift(math, ABOVE) and not words
-
-
-def _lowered(math: Math | None) -> str:
-    return "" if math is None else _shifted(math, BELOW, "_")
-
-
-def _raised(math: Math | None) -> str:
-    if math == Glyph("*", "operator"):
-        return "*"
-    return "" if math is None else _shifted(math, ABOVE, "^")
+    words = any(map(is_word, math.items if isinstance(math, Row) else ()))
+    return not words and all(sign in ABOVE for sign in unicode(math).replace(" ", ""))
 
 
 def _shifted(math: Math, table: dict[str, str], mark: str) -> str:
     text = unicode(math).replace(" ", "")
-    primes = len(text) - len(text.rstrip("′"))
-    stem = text.rstrip("′") if table is BELOW else text
-    if stem and all(sign in table or (sign == "′" and table is BELOW) for sign in stem):
-        return "".join(table.get(sign, sign) for sign in stem) + "′" * (primes if table is BELOW else 0)
+    if text.strip("′") and all(sign in table for sign in text):
+        return "".join(table[sign] for sign in text)
     return f"{mark}{text}" if len(text) == 1 or _bracketed(text) else f"{mark}({text})"
-
-
-def _all_shift(math: Math, table: dict[str, str]) -> bool:
-    return all(sign in table for sign in unicode(math).replace(" ", ""))
 
 
 def _bracketed(text: str) -> bool:

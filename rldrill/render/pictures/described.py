@@ -56,12 +56,10 @@ def described(picture: Picture) -> str:
 
 def _run(line: Timeline) -> str:
     said: list[str] = []
-    for time, state in enumerate(line.states):
-        said.append(" ".join(filter(None, (line.times[time], state))))
-        if time < len(line.actions):
-            said.append(f"action {line.actions[time]}")
-        if time < len(line.rewards):
-            said.append(f"reward {line.rewards[time]}")
+    for moment in line.moments():
+        said.append(" ".join(filter(None, (moment.label, moment.state))))
+        said += [] if moment.action is None else [f"action {moment.action}"]
+        said += [] if moment.reward is None else [f"reward {moment.reward}"]
     return ", ".join(said)
 
 

@@ -14,7 +14,6 @@ from rldrill.render.pictures.curves import Ints, Outline
 from rldrill.render.pictures.graph_labels import placed
 from rldrill.render.pictures.graph_search import HARD, Action, Drawing, States, search
 from rldrill.render.pictures.scene import (
-    SIZE,
     Bounds,
     Caption,
     Curve,
@@ -101,7 +100,7 @@ def _scene(diagram: StateDiagram, drawing: Drawing) -> Scene:
         heads.append(arrowhead(control, end))
     for name, centre, outline in zip(diagram.states, drawing.states.centres, drawing.states.outlines, strict=True):
         marks += [_shape(_point(centre), outline), Caption(_point(centre), name)]
-    texts = [Caption(_point(at), text, plate=True, size=SIZE) for at, text in drawing.labels]
+    texts = [Caption(_point(at), text, plate=True) for at, text in drawing.labels]
     return Scene((*lines, *texts, *marks, *heads))
 
 

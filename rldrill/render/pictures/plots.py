@@ -55,8 +55,8 @@ def bars(picture: Bars) -> Scene:
 def bumps(picture: Bumps) -> Scene:
     """The functions over the axis, and the state as a dashed line with a dot on it."""
     reach = picture.width * (2.6 if picture.shape == "gaussian" else 1.0)
-    low = min(*picture.centres, picture.state, picture.centres[0]) - reach
-    high = max(*picture.centres, picture.state, picture.centres[0]) + reach
+    low = min(*picture.centres, picture.state) - reach
+    high = max(*picture.centres, picture.state) + reach
     scale = _AXIS / (high - low)
 
     def across(value: float) -> float:

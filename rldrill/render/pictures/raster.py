@@ -1,20 +1,18 @@
 """Scenes as Braille signs, two dots across and four down in each, with their labels written over them."""
 
 from collections.abc import Callable
-from itertools import pairwise
 from math import ceil, hypot
 
 from rldrill.render.mathematics.unicode import inline
-from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene
+from rldrill.render.pictures.scene import SHARES, Caption, Ellipse, Path, Point, Scene
 
 #: Points of the scene to a dot.
 _DOT = 2.2
 _BITS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
-_AROUND = 16
 
 
 def raster(scene: Scene) -> list[str]:
-    """A scene as lines of text."""
+    """A scene without curves as lines of text."""
     box = scene.box
     wide, high = ceil((box.right - box.left) / _DOT / 2) + 1, ceil((box.bottom - box.top) / _DOT / 4) + 1
     dots = [[0] * wide for _ in range(high)]
@@ -29,10 +27,6 @@ def raster(scene: Scene) -> list[str]:
             case Path(points, closed=closed, dashed=dashed):
                 for start, end in zip(points, (*points[1:], *points[: int(closed)]), strict=False):
                     _line(start, end, mark, dashed=dashed)
-            case Curve(start, control, end):
-                corners = [_on(start, control, end, step / _AROUND) for step in range(_AROUND + 1)]
-                for one, two in pairwise(corners):
-                    _line(one, two, mark)
             case Ellipse((x, y), (across, down), fill):
                 for step in range(-4, 5):
                     for half in range(-4, 5):
@@ -59,17 +53,9 @@ def _row(cells: list[int], texts: dict[int, str]) -> str:
     return "".join(line).rstrip()
 
 
-def _line(start: Point, end: Point, mark: Callable[[Point], None], *, dashed: bool = False) -> None:
+def _line(start: Point, end: Point, mark: Callable[[Point], None], *, dashed: bool) -> None:
     steps = max(1, ceil(hypot(end[0] - start[0], end[1] - start[1]) / _DOT * 1.5))
     for step in range(steps + 1):
         if not dashed or step % 6 < 3:
             share = step / steps
             mark((start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])))
-
-
-def _on(start: Point, control: Point, end: Point, t: float) -> Point:
-    u = 1 - t
-    return (
-        u * u * start[0] + 2 * u * t * control[0] + t * t * end[0],
-        u * u * start[1] + 2 * u * t * control[1] + t * t * end[1],
-    )

@@ -10,6 +10,8 @@ Point: TypeAlias = tuple[float, float]
 
 #: The size of the type in pictures.
 SIZE = 8.0
+#: How wide lines are, and how long the head of an arrow is.
+LINE, _HEAD = 0.6, 5.0
 #: Widths of signs in parts of the type's size, on the generous side.
 _NARROW, _NORMAL, _WIDE = 0.36, 0.55, 0.85
 _NARROW_SIGNS = frozenset("iljft.,;:'′!|()[] /₀₁₂₃₄₅₆₇₈₉ₐₜ")
@@ -22,7 +24,7 @@ class Path(Struct, frozen=True):
     points: tuple[Point, ...]
     closed: bool = False
     fill: float | None = None
-    width: float = 0.6
+    width: float = LINE
     dashed: bool = False
 
 
@@ -32,7 +34,6 @@ class Curve(Struct, frozen=True):
     start: Point
     control: Point
     end: Point
-    width: float = 0.6
 
 
 class Ellipse(Struct, frozen=True):
@@ -40,8 +41,7 @@ class Ellipse(Struct, frozen=True):
 
     centre: Point
     radii: Point
-    fill: float | None = 1.0
-    width: float = 0.6
+    fill: float = 1.0
 
 
 class Caption(Struct, frozen=True):
@@ -51,7 +51,6 @@ class Caption(Struct, frozen=True):
     text: str
     anchor: Literal["centre", "left", "right", "below", "above"] = "centre"
     plate: bool = False
-    size: float = SIZE
 
 
 Shape: TypeAlias = Path | Curve | Ellipse | Caption
@@ -90,9 +89,9 @@ class Scene(Struct, frozen=True):
         )
 
 
-def text_width(text: str, size: float = SIZE) -> float:
+def text_width(text: str) -> float:
     """About how wide a text is when typeset, never less."""
-    return sum(map(_sign_width, inline(text))) * size
+    return sum(map(_sign_width, inline(text))) * SIZE
 
 
 def _sign_width(sign: str) -> float:
@@ -117,7 +116,7 @@ def bounds_of(shape: Shape) -> Bounds:
 
 def caption_bounds(label: Caption) -> Bounds:
     """The room that a label takes, with the air around it."""
-    (x, y), wide, high = label.at, text_width(label.text, label.size) + 2, label.size * 1.15
+    (x, y), wide, high = label.at, text_width(label.text) + 2, SIZE * 1.15
     across, down = SHARES[label.anchor]
     return Bounds(x - across * wide, y - down * high, x + (1 - across) * wide, y + (1 - down) * high)
 
@@ -137,11 +136,11 @@ def rectangle(box: Bounds, fill: float) -> Path:
     return Path(corners, closed=True, fill=fill)
 
 
-def arrowhead(before: Point, tip: Point, length: float = 5.0) -> Path:
+def arrowhead(before: Point, tip: Point) -> Path:
     """The head of an arrow that comes from ``before``."""
     dx, dy = tip[0] - before[0], tip[1] - before[1]
     long = (dx * dx + dy * dy) ** 0.5 or 1.0
-    dx, dy = dx / long * length, dy / long * length
+    dx, dy = dx / long * _HEAD, dy / long * _HEAD
     foot = tip[0] - dx, tip[1] - dy
     wing = -dy * 0.34, dx * 0.34
     return Path(

@@ -5,10 +5,21 @@ from html import escape
 
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import Math, Script
-from rldrill.problems.pictures import Picture, Timeline
+from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.pictures.described import described
-from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Scene, Shape, caption_bounds
+from rldrill.render.pictures.scene import (
+    LINE,
+    SHARES,
+    SIZE,
+    Caption,
+    Curve,
+    Ellipse,
+    Path,
+    Scene,
+    Shape,
+    caption_bounds,
+)
 from rldrill.render.pictures.scenes import scene_of
 
 #: A point of the scene on the screen, in pixels.
@@ -24,8 +35,6 @@ def svg(picture: Picture) -> str:
     Raises:
         TypeError: it is a timeline, which is no drawing but a row of texts.
     """
-    if isinstance(picture, Timeline):
-        raise TypeError("a timeline is written as a row of texts")
     scene = scene_of(picture)
     return "" if scene is None else drawn(scene, described(picture))
 
@@ -49,15 +58,15 @@ def _shape(shape: Shape) -> str:
             places = " ".join(f"{_number(x)},{_number(y)}" for x, y in points)
             dashes = ' stroke-dasharray="3 2"' if dashed else ""
             return f'<{tag} points="{places}" {_ink(fill, width)}{dashes}/>'
-        case Curve((x, y), (cx, cy), (ex, ey), width):
+        case Curve((x, y), (cx, cy), (ex, ey)):
             places = f"M{_number(x)} {_number(y)}Q{_number(cx)} {_number(cy)} {_number(ex)} {_number(ey)}"
-            return f'<path d="{places}" {_ink(None, width)}/>'
-        case Ellipse((x, y), (across, down), fill, width):
+            return f'<path d="{places}" {_ink(None, LINE)}/>'
+        case Ellipse((x, y), (across, down), fill):
             return (
                 f'<ellipse cx="{_number(x)}" cy="{_number(y)}" rx="{_number(across)}" ry="{_number(down)}" '
-                f"{_ink(fill, width)}/>"
+                f"{_ink(fill, LINE)}/>"
             )
-        case Caption((x, _), text, anchor, plate, size):
+        case Caption((x, _), text, anchor, plate):
             box = caption_bounds(shape)
             ground = (
                 f'<rect x="{_number(box.left)}" y="{_number(box.top)}" width="{_number(box.right - box.left)}" '
@@ -65,9 +74,9 @@ def _shape(shape: Shape) -> str:
                 if plate
                 else ""
             )
-            line = box.bottom - 0.32 * size
+            line = box.bottom - 0.32 * SIZE
             return (
-                f'{ground}<text x="{_number(x)}" y="{_number(line)}" font-size="{size:g}" '
+                f'{ground}<text x="{_number(x)}" y="{_number(line)}" font-size="{SIZE:g}" '
                 f'text-anchor="{_ANCHORS[SHARES[anchor][0]]}">{_words(text)}</text>'
             )
 

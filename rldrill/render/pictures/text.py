@@ -7,6 +7,7 @@ from rldrill.problems.pictures import (
     Bars,
     Bumps,
     GridPicture,
+    Moment,
     Pendulum,
     Picture,
     StateDiagram,
@@ -85,8 +86,9 @@ def _timeline(line: Timeline, width: int) -> list[str]:
 
     Where it is folded, the next lines begin with the state that these end in.
     """
-    states = [_state(line, time) for time in range(len(line.states))]
-    arrows = [_arrow(line, time) for time in range(len(line.states))]
+    moments = list(line.moments())
+    states = [_state(moment, ends=line.ended and moment.last) for moment in moments]
+    arrows = list(map(_arrow, moments))
     last = len(states) - 1
     result: list[str] = []
     start = 0
@@ -113,19 +115,16 @@ def _folded(row: list[_Column]) -> list[str]:
     return ["".join(parts).rstrip() for parts in zip(*row, strict=True)]
 
 
-def _state(line: Timeline, time: int) -> _Column:
-    ended = line.ended and time == len(line.states) - 1
-    state = f"{'□' if ended else '○'} {inline(line.states[time])}"
-    label = inline(line.times[time])
+def _state(moment: Moment, *, ends: bool) -> _Column:
+    state, label = f"{'□' if ends else '○'} {inline(moment.state)}", inline(moment.label)
     wide = max(len(state), len(label))
     return (label.ljust(wide), " " * wide, state.ljust(wide), " " * wide)
 
 
-def _arrow(line: Timeline, time: int) -> _Column:
+def _arrow(moment: Moment) -> _Column:
     """The arrow that leaves a state; nothing leaves the last one, unless an action is taken there."""
-    action = inline(line.actions[time]) if time < len(line.actions) else ""
-    reward = inline(line.rewards[time]) if time < len(line.rewards) else ""
-    if time == len(line.states) - 1 and not action:
+    action, reward = inline(moment.action or ""), inline(moment.reward or "")
+    if moment.last and not action:
         return ("", "", "", "")
     wide = max(len(action), len(reward), 3) + 1
     return (" " * (wide + 3), f" {action.center(wide)}  ", f" {'─' * wide}▶ ", f" {reward.center(wide)}  ")

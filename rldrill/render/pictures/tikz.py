@@ -2,10 +2,9 @@
 
 from functools import cache
 
-from rldrill.problems.document import pieces
 from rldrill.problems.pictures import Picture
-from rldrill.render.mathematics.latex import latex_plain, latex_typed
-from rldrill.render.pictures.scene import Caption, Curve, Ellipse, Path, Point, Scene, Shape
+from rldrill.render.mathematics.latex import latex_text
+from rldrill.render.pictures.scene import LINE, Caption, Curve, Ellipse, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
 
 _ANCHORS = {"centre": "center", "left": "west", "right": "east", "below": "north", "above": "south"}
@@ -33,19 +32,16 @@ def _shape(shape: Shape) -> str:
         case Path(points, closed, fill, width, dashed):
             line = " -- ".join(map(_point, points)) + (" -- cycle" if closed else "")
             return rf"\path[{_ink(fill, width)}{',dashed' if dashed else ''}] {line};"
-        case Curve(start, (cx, cy), end, width):
-            first, second = (
-                (_third(start[0], cx), _third(start[1], cy)),
-                (_third(end[0], cx), _third(end[1], cy)),
-            )
+        case Curve(start, (cx, cy), end):
+            first, second = ((_third(x, cx), _third(y, cy)) for x, y in (start, end))
             bend = f"{_point(first)} and {_point(second)}"
-            return rf"\path[{_ink(None, width)}] {_point(start)} .. controls {bend} .. {_point(end)};"
-        case Ellipse(centre, (across, down), fill, width):
+            return rf"\path[{_ink(None, LINE)}] {_point(start)} .. controls {bend} .. {_point(end)};"
+        case Ellipse(centre, (across, down), fill):
             radii = f"x radius={across:.2f}pt, y radius={down:.2f}pt"
-            return rf"\path[{_ink(fill, width)}] {_point(centre)} ellipse [{radii}];"
-        case Caption(at, text, anchor, plate, _):
+            return rf"\path[{_ink(fill, LINE)}] {_point(centre)} ellipse [{radii}];"
+        case Caption(at, text, anchor, plate):
             ground = ",fill=white" if plate else ""
-            return rf"\node[anchor={_ANCHORS[anchor]},inner sep=1pt{ground}] at {_point(at)} {{{_words(text)}}};"
+            return rf"\node[anchor={_ANCHORS[anchor]},inner sep=1pt{ground}] at {_point(at)} {{{latex_text(text)}}};"
 
 
 def _third(end: float, control: float) -> float:
@@ -60,9 +56,3 @@ def _point(point: Point) -> str:
 def _ink(fill: float | None, width: float) -> str:
     inside = "" if fill is None else f",fill=black!{round(100 * (1 - fill))}"
     return f"draw,line width={width:g}pt{inside}"
-
-
-def _words(text: str) -> str:
-    return "".join(
-        latex_plain(piece) if isinstance(piece, str) else f"${latex_typed(piece)}$" for piece in pieces(text)
-    )

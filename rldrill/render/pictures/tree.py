@@ -71,10 +71,8 @@ def _branch(branch: Branch, *, dots: bool) -> _Block:
     label = inline(branch.label)
     upright = "┊" if dots else "│"
     beside = f"{' ' * block.column}{upright}"
-    second = f"{beside} {label}" if label else beside
-    rows = [beside, second, *block.lines] if label or dots else [beside, *block.lines]
-    if label:
-        rows = rows[1:]
+    above = [f"{beside} {label}"] if label else [beside] * (2 if dots else 1)
+    rows = [*above, *block.lines]
     width = max(map(len, rows))
     return _Block([row.ljust(width) for row in rows], block.column)
 

@@ -8,7 +8,7 @@ from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
 from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.mathematics.typst import quoted, typst
 from rldrill.render.pictures.described import described
-from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene, Shape
+from rldrill.render.pictures.scene import LINE, SHARES, SIZE, Caption, Curve, Ellipse, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
 
 #: A picture that is no wider is not measured; in points.
@@ -38,7 +38,7 @@ def picture(block: Picture, *, shrinks: bool = False) -> str:
     return "" if scene is None else f"#drawing({quoted(described(block))}, {scene_box(scene, shrinks=shrinks)})\n"
 
 
-def scene_box(scene: Scene, *, shrinks: bool = False) -> str:
+def scene_box(scene: Scene, *, shrinks: bool) -> str:
     """A scene as an expression: a box of its size, shrunk where there is less room."""
     box = scene.box
     shapes = "".join(f"\n  {_shape(shape, (box.left, box.top))}" for shape in scene.shapes)
@@ -55,20 +55,20 @@ def _shape(shape: Shape, origin: Point) -> str:
             close = 'curve.close(mode: "straight"), ' if closed else ""
             style = f"{_fill(fill)}stroke: {_stroke(width, dashed)}"
             return f"place(curve({style}, curve.move(({_pt(x)}, {_pt(y)})), {steps}{close}))"
-        case Curve(start, control, end, width):
+        case Curve(start, control, end):
             (x, y), (cx, cy), (ex, ey) = (_moved(point, origin) for point in (start, control, end))
             bend = f"curve.quad(({_pt(cx)}, {_pt(cy)}), ({_pt(ex)}, {_pt(ey)}))"
-            return f"place(curve(stroke: {_stroke(width)}, curve.move(({_pt(x)}, {_pt(y)})), {bend}))"
-        case Ellipse(centre, (across, down), fill, width):
+            return f"place(curve(stroke: {_stroke(LINE)}, curve.move(({_pt(x)}, {_pt(y)})), {bend}))"
+        case Ellipse(centre, (across, down), fill):
             x, y = _moved(centre, origin)
             size = f"width: {_pt(2 * across)}, height: {_pt(2 * down)}"
             where = f"dx: {_pt(x - across)}, dy: {_pt(y - down)}"
-            return f"place({where}, ellipse({size}, {_fill(fill)}stroke: {_stroke(width)}))"
-        case Caption(at, words, anchor, plate, size):
+            return f"place({where}, ellipse({size}, {_fill(fill)}stroke: {_stroke(LINE)}))"
+        case Caption(at, words, anchor, plate):
             x, y = _moved(at, origin)
             across, down = SHARES[anchor]
             ground = "white" if plate else "none"
-            return f"label({_pt(x)}, {_pt(y)}, {across}, {down}, {ground}, {_pt(size)}, [{small(words)}])"
+            return f"label({_pt(x)}, {_pt(y)}, {across}, {down}, {ground}, {_pt(SIZE)}, [{small(words)}])"
 
 
 def _moved(point: Point, origin: Point) -> Point:
@@ -103,14 +103,13 @@ def _flat(math: Math) -> Math:
 
 
 def _timeline(line: Timeline) -> str:
-    last = len(line.states) - 1
     steps = []
-    for time, state in enumerate(line.states):
-        ends = "true" if line.ended and time == last else "false"
-        parts = [f"time-state([{small(line.times[time])}], {ends}, [{small(state)}])"]
-        if time < last or time < len(line.actions):
-            action = f"[{small(line.actions[time])}]" if time < len(line.actions) else "none"
-            reward = f"[{small(line.rewards[time])}]" if time < last else "none"
+    for moment in line.moments():
+        ends = "true" if line.ended and moment.last else "false"
+        parts = [f"time-state([{small(moment.label)}], {ends}, [{small(moment.state)}])"]
+        if moment.goes_on:
+            each = (moment.action, moment.reward)
+            action, reward = ("none" if text is None else f"[{small(text)}]" for text in each)
             parts.append(f"time-arrow({action}, {reward})")
         steps.append(f"box({{{'; '.join(parts)}}})")
     return f"timeline({', '.join(steps)})"
