@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from rldrill.problems.exact import called
-from rldrill.problems.expressions import GREEK
+from rldrill.problems.habits import ALSO
 
 _LONGEST = 40
 _PLACE = re.compile(r"([a-z_]+(?:\[\d+\])*): ", re.IGNORECASE)
@@ -21,11 +21,6 @@ _BETWEEN = re.compile(r"\s*;\s*|,\s+")
 _SPACED, _NUMBERS = re.compile(r"\s+"), re.compile(r"[-+−]?[\d./]+(?:\s+[-+−]?[\d./]+)+")
 #: So many of them are shown.
 _SHOWN = 5
-#: What fields are called elsewhere.
-_ALSO = {
-    "discount": "gamma", "discount_factor": "gamma", "step_size": "alpha", "learning_rate": "alpha", "lambda": "lam",
-    "λ": "lam",
-} | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
 #: What to say of the faults that pydantic finds, by its names for them.
 _SAYS = {
     "missing": "is missing; add it",
@@ -86,7 +81,7 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
 
 def nearest(name: str, known: Sequence[str]) -> str:
     """The one of these that a name was probably meant to be, in brackets; nothing where none is near."""
-    meant = [each for each in (name.lower(), _ALSO.get(name.lower())) if each in known]
+    meant = [each for each in (name.lower(), ALSO.get(name.lower())) if each in known]
     close = meant or get_close_matches(name.lower(), known, n=1, cutoff=0.5)
     return f" (did you mean {close[0]}?)" if close else ""
 

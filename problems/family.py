@@ -21,6 +21,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import Logarithm, Parameter
 from rldrill.problems.fractions import Fraction
+from rldrill.problems.habits import settled
 from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part, lettered
 from rldrill.problems.readings import Note
@@ -207,7 +208,7 @@ class Family(Struct, frozen=True, dict=True):
             FileError: they do not fit; the sentence names the field.
         """
         try:
-            return self._reader.validate_python(given, context=note)
+            return self._reader.validate_python(settled(given, self.schema()), context=note)
         except ValidationError as error:
             tagged = len(self.kinds) > 1
             raise FileError(sentence(error, self.schema(), family=self.name, tagged=tagged)) from None

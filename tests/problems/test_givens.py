@@ -138,9 +138,9 @@ EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0]
         ("apprenticeship", EXPERT | {"policies": [[0, 0]]}, "policies[1]: this is where the projection stands"),
         ("apprenticeship", EXPERT | {"policies": [[4, 0], [2, 0]]}, "policies[2]: this is where the projection stands"),
         # what is not of the kind that is needed
-        ("rbf", {"position": 1, "centres": [[4]], "sigma": 1},
-         "given.position: must be a list; a single entry, too, stands in brackets: [1]."),
-        ("lqr-backward", LQR | {"start": 1}, "given.start: must be a list; a single entry"),
+        ("rbf", {"position": "1, 2", "centres": [[4]], "sigma": 1},
+         "given.position: must be a list; a single entry, too, stands in brackets: ['1', '2']."),
+        ("lqr-backward", LQR | {"start": True}, "given.start: must be a list; a single entry"),
         ("lqr-backward", LQR | {"start": []}, "given.start: is empty; it needs at least 1 entry."),
         ("lqr-backward", LQR | {"horizon": "x"}, "given.horizon: 'x' is not a whole number; write one, such as 3."),
         ("lqr-backward", LQR | {"horizon": 0}, "given.horizon: 0 is too small; it must be at least 1."),

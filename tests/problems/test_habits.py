@@ -1,0 +1,70 @@
+"""What people write otherwise than models have it, and what only looks like it."""
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import rldrill
+from rldrill.problems.catalogue import family
+from rldrill.problems.errors import FileError
+
+RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "usual"),
+    [
+        # one entry without brackets
+        ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": 0}, {"asked": [0]}),
+        ("return-infinite", {"first": 2, "repeated": "7", "gamma": "1/2"}, {"first": [2], "repeated": [7]}),
+        ("rbf", {"position": 0.5, "centres": [0, 1], "sigma": 1}, {"position": [0.5], "centres": [[0], [1]]}),
+        ("td-zero", {"trajectory": RUN | {"terminal": "end"}, "values": {"a": 0, "b": 0}, "alpha": 1, "gamma": 1},
+         {"trajectory": RUN}),
+        ("feature-expectations", {"features": {"a": 1}, "trajectories": [["a"]], "gamma": 1}, {"features": {"a": [1]}}),
+        ("kalman-filter", {"mean": 0, "covariance": 1, "process": 0, "sensor": 1, "steps": {"z": 1}},
+         {"steps": [{"z": 1}]}),
+        # one row without the brackets of the list
+        ("bandit", {"pulls": ["a", 1], "arms": ["a", "b"]}, {"pulls": [["a", 1]]}),
+        ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": [0, 2]},
+         {"asked": [[0, 2]]}),
+        # other names of fields
+        ("eligibility-trace", {"states": ["a"], "\N{GREEK SMALL LETTER GAMMA}": 1, "lambda": 1, "asked": [0]},
+         {"gamma": 1, "lam": 1}),
+        ("linear-value", {"theta": [1, 2], "actions": ["l", "r"], "bumps": {"position": 0, "centers": [0], "width": 1}},
+         {"bumps": {"position": [0], "centres": [[0]], "width": 1}}),
+        # words in another case
+        ("bic", {"criterion": "aic", "fitted": {"x": {"log_likelihood": -9, "k": 1},
+                                                "y": {"log_likelihood": -8, "k": 1}}}, {"criterion": "AIC"}),
+    ],
+)  # fmt: skip
+def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], usual: dict[str, Any]) -> None:
+    kept = {key: value for key, value in given.items() if key not in ("\N{GREEK SMALL LETTER GAMMA}", "lambda")}
+    assert family(name).read(given) == family(name).read(kept | usual)
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "says"),
+    [
+        # one trajectory, or three of one state each
+        ("feature-expectations", {"features": {"a": [1]}, "trajectories": ["a", "a", "a"], "gamma": 1},
+         "given.trajectories[1]: must be a list"),
+        ("eligibility-trace", {"states": "a b", "gamma": 1, "lam": 1, "asked": [0]}, "given.states: must be a list"),
+        ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "lambda": 1, "asked": [0]},
+         "given.lambda is not a field"),
+        ("rbf", {"position": [0, 1], "centres": [0, 1], "sigma": 1}, "given"),
+        ("bic", {"criterion": "AICc", "fitted": {}}, "given.criterion: 'AICc' is not possible here"),
+    ],
+)  # fmt: skip
+def test_what_can_mean_two_things_is_refused(name: str, given: dict[str, Any], says: str) -> None:
+    with pytest.raises(FileError) as error:
+        family(name).read(given)
+    assert says in str(error.value)
+
+
+def test_the_problem_is_the_one_that_was_meant() -> None:
+    """(0.45)\N{SUPERSCRIPT TWO} + 1 for the state visited at 0 and 2, with γλ = 0.45; 0.45 for the one between."""
+    given = {"states": ["a", "b", "a"], "gamma": 0.9, "lambda": 0.5, "asked": 2}
+    assert rldrill.read({"family": "eligibility-trace", "given": given}).answers() == {
+        "a": {"a": Fraction(481, 400), "b": Fraction(9, 20)}
+    }
