@@ -271,6 +271,7 @@ def _together(forms: Sequence[_Form]) -> Reading:
 def _meant(name: Name, parameters: Sequence[str], behind_number: bool) -> str:
     """The parameter or constant that is meant by a name."""
     typed = name.text if name.text in parameters else name.text.lower()
+    typed = "lambda" if typed == "lam" else typed
     for parameter in parameters:
         if typed in (parameter, PARAMETERS.get(parameter)):
             return parameter
