@@ -281,7 +281,7 @@ def check_sum(probabilities: Iterable[Scalar], what: str) -> None:
 
 
 Policy = Mapping[str, Mapping[str, OpenProbability]]
-UNIFORM = ("uniform", "equiprobable")
+UNIFORM = ("uniform", "equiprobable", "random")
 
 
 def _meant(chances: dict[str, Chance], info: ValidationInfo) -> dict[str, Chance]:

@@ -33,6 +33,11 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
          {"gamma": 1, "lam": 1}),
         ("linear-value", {"theta": [1, 2], "actions": ["l", "r"], "bumps": {"position": 0, "centers": [0], "width": 1}},
          {"bumps": {"position": [0], "centres": [[0]], "width": 1}}),
+        # by state and action, where it is by action and state
+        ("bayes-predict", {"belief": {"a": 1, "b": 0}, "actions": "go",
+                           "motion": {"a": {"go": {"b": "1/3", "a": "2/3"}}, "b": {"go": {"b": 1}}}},
+         {"actions": ["go"], "motion": {"go": {"a": {"b": "1/3", "a": "2/3"}, "b": {"b": 1}}}}),
+        ("value-from-action-values", {"values": {"s": {"l": 1, "r": 3}}, "policy": "random"}, {"policy": "uniform"}),
         # words in another case
         ("bic", {"criterion": "aic", "fitted": {"x": {"log_likelihood": -9, "k": 1},
                                                 "y": {"log_likelihood": -8, "k": 1}}}, {"criterion": "AIC"}),
