@@ -21,6 +21,8 @@ _BETWEEN = re.compile(r"\s*;\s*|,\s+")
 _SPACED, _NUMBERS = re.compile(r"\s+"), re.compile(r"[-+−]?[\d./]+(?:\s+[-+−]?[\d./]+)+")
 #: So many of them are shown.
 _SHOWN = 5
+#: So many fields are named.
+_FIELDS = 14
 #: What to say of the faults that pydantic finds, by its names for them.
 _SAYS = {
     "missing": "is missing; add it",
@@ -68,9 +70,13 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
     path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)
     more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
     if first["type"] == "extra_forbidden":
-        near = nearest(str(place[-1]), _known(schema, schema, place[:-1]))
-        known = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
-        return f"given{path} is not a field{near}; {known}{more}."
+        known = list(dict.fromkeys(_known(schema, schema, place[:-1])))
+        all_of_them = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
+        if 0 < len(known) <= _FIELDS:
+            all_of_them = (
+                f"the field{'s' * (len(known) > 1)} there {'are' if len(known) > 1 else 'is'} {', '.join(known)}"
+            )
+        return f"given{path} is not a field{nearest(str(place[-1]), known)}; {all_of_them}{more}."
     told = says(first)
     if first["type"] == "model_type" and 0 < len(names := dict.fromkeys(_known(schema, schema, place))) <= _SHOWN:
         told = f"{told}: {', '.join(names)}"
@@ -82,7 +88,8 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
 def nearest(name: str, known: Sequence[str]) -> str:
     """The one of these that a name was probably meant to be, in brackets; nothing where none is near."""
     meant = [each for each in (name.lower(), ALSO.get(name.lower())) if each in known]
-    close = meant or get_close_matches(name.lower(), known, n=1, cutoff=0.5)
+    alike = [each for each in known if each[:1].lower() == name[:1].lower()]  # few slips are made in the first letter
+    close = meant or get_close_matches(name.lower(), alike, n=1, cutoff=0.5)
     return f" (did you mean {close[0]}?)" if close else ""
 
 
