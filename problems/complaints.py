@@ -1,7 +1,7 @@
 """What is wrong with the givens of a problem file, as one plain sentence that names the field."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -70,7 +70,7 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
     path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)
     more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
     if first["type"] == "extra_forbidden":
-        known = list(dict.fromkeys(_known(schema, schema, place[:-1])))
+        known = _known(schema, place[:-1])
         all_of_them = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
         if 0 < len(known) <= _FIELDS:
             all_of_them = (
@@ -78,8 +78,12 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
             )
         return f"given{path} is not a field{nearest(str(place[-1]), known)}; {all_of_them}{more}."
     told = says(first)
-    if first["type"] == "model_type" and 0 < len(names := dict.fromkeys(_known(schema, schema, place))) <= _SHOWN:
+    if first["type"] == "model_type" and 0 < len(names := _known(schema, place)) <= _SHOWN:
         told = f"{told}: {', '.join(names)}"
+    if first["type"] == "tuple_type" and (size := _row(schema, place)):
+        told = f"must be a list of {size} entries, in brackets of its own"
+    elif first["type"] == "tuple_type" and (size := _row(schema, [*place, 0])):
+        told = f"must be a list, in which each entry is a list of {size}"
     if begun := _PLACE.match(told):  # what a whole model says of one of its fields
         path, told = f"{path}.{begun[1]}", told[begun.end() :]
     return f"given{path}: {told}{more}."
@@ -93,20 +97,30 @@ def nearest(name: str, known: Sequence[str]) -> str:
     return f" (did you mean {close[0]}?)" if close else ""
 
 
-def _known(whole: Schema, schema: Schema, place: Sequence[int | str]) -> list[str]:
+def _known(whole: Schema, place: Sequence[int | str]) -> list[str]:
     """The fields of the table at a place, in any form that it may have."""
+    return list(dict.fromkeys(name for schema in _at(whole, whole, place) for name in schema.get("properties", ())))
+
+
+def _row(whole: Schema, place: Sequence[int | str]) -> int:
+    """How many entries a row has that may stand at a place; 0 where none may."""
+    return next((len(form["prefixItems"]) for form in _at(whole, whole, place) if "prefixItems" in form), 0)
+
+
+def _at(whole: Schema, schema: Schema, place: Sequence[int | str]) -> Iterator[Schema]:
+    """What may stand at a place, in any form that what is around it may have."""
     if "$ref" in schema:
-        return _known(whole, whole["$defs"][schema["$ref"].rpartition("/")[2]], place)
-    forms = [*schema.get("anyOf", ()), *schema.get("oneOf", ())]
-    found = [name for form in forms for name in _known(whole, form, place)]
+        schema = whole["$defs"][schema["$ref"].rpartition("/")[2]]
     if not place:
-        return [*schema.get("properties", ()), *found]
-    step, *rest = place
-    if isinstance(step, int):
-        inner = schema.get("items")
-    else:
-        inner = schema.get("properties", {}).get(step, schema.get("additionalProperties"))
-    return [*found, *(_known(whole, inner, rest) if isinstance(inner, dict) else ())]
+        yield schema
+    for form in (*schema.get("anyOf", ()), *schema.get("oneOf", ())):
+        yield from _at(whole, form, place)
+    if place:
+        step, *rest = place
+        whose = schema.get("properties", {}).get(step, schema.get("additionalProperties"))
+        inner = schema.get("items") if isinstance(step, int) else whose
+        if isinstance(inner, dict):
+            yield from _at(whole, inner, rest)
 
 
 def says(fault: Mapping[str, Any]) -> str:

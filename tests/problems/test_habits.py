@@ -26,8 +26,6 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
          {"steps": [{"z": 1}]}),
         # one row without the brackets of the list
         ("bandit", {"pulls": ["a", 1], "arms": ["a", "b"]}, {"pulls": [["a", 1]]}),
-        ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": [0, 2]},
-         {"asked": [[0, 2]]}),
         # other names of fields
         ("eligibility-trace", {"states": ["a"], "\N{GREEK SMALL LETTER GAMMA}": 1, "lambda": 1, "asked": [0]},
          {"gamma": 1, "lam": 1}),
@@ -62,6 +60,13 @@ def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], 
         ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "lambda": 1, "asked": [0]},
          "given.lambda is not a field"),
         ("rbf", {"position": [0, 1], "centres": [0, 1], "sigma": 1}, "given"),
+        # one task of curvature 1 and optimum 3, or two
+        ("maml-step", {"theta": 0, "alpha": 1, "beta": 1, "tasks": [1, 3]},
+         "given.tasks[1]: must be a list, with the entries of one task"),
+        ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": [0, 2]},
+         "given.asked[1]: must be a list of 2 entries, in brackets of its own (and "),
+        ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": 2},
+         "given.asked: must be a list, in which each entry is a list of 2."),
         ("bic", {"criterion": "AICc", "fitted": {}}, "given.criterion: 'AICc' is not possible here"),
     ],
 )  # fmt: skip
