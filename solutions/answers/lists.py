@@ -13,7 +13,9 @@ _NOTHING = re.compile(r"[-–—?…]?")
 _FACTOR = re.compile(
     r"(?P<factor>(?:[^()\[\],;|\s]|\((?:[^()\[\]]|\([^()\[\]]*\))+\))+?)\s*\*?\s*(?P<bracket>[\[(].*)", re.DOTALL
 )
-_DIVIDED = re.compile(r"(?P<bracket>[\[(].*[\])])\s*/\s*(?P<factor>[0-9.]+|√[0-9]+|[^\W\d_]+|\w*\([^()]*\))", re.DOTALL)
+_DIVIDED = re.compile(
+    r"(?P<minus>-?)\s*(?P<bracket>[\[(].*[\])])\s*/\s*(?P<factor>[0-9.]+|√[0-9]+|[^\W\d_]+|\w*\([^()]*\))", re.DOTALL
+)
 _MIXED = re.compile(r"[0-9]+\s+[0-9]+\s*/\s*[0-9]+(?![0-9.])")
 
 
@@ -25,12 +27,13 @@ def untransposed(source: Source) -> Source:
 
 def unscaled(source: Source) -> tuple[str, Source]:
     """The factor of a bracket of several entries, ``1/11 [5 3]`` or ``[5 3]/11``, and the bracket; no text without."""
-    for pattern, written in ((_FACTOR, "{}"), (_DIVIDED, "1/({})")):
+    for pattern, written in ((_FACTOR, "{factor}"), (_DIVIDED, "{minus}1/({factor})")):
         if found := pattern.fullmatch(source.text):
             bracket = source.part(*found.span("bracket"))
             inside, wrapped = unwrapped(bracket)
             if wrapped and inside.has(",;| \n"):
-                return written.format(found["factor"]), bracket
+                factor = written.format_map(found.groupdict())
+                return ("-1" if factor == "-" else factor), bracket
     return "", source
 
 

@@ -408,6 +408,20 @@ def test_a_bound_is_no_value(text: str) -> None:
 
 def test_lambda_may_be_typed_as_files_have_it() -> None:
     assert read_number("1 + 2 lam", ("lambda",)).value == read_number("1 + 2λ", ("lambda",)).value
+    assert read_number("1 + 2 eps", ("epsilon",)).value == read_number("1 + 2ε", ("epsilon",)).value
+
+
+@pytest.mark.parametrize("text", ["1 + 2e", "1 - e^2", "2/3*e"])
+def test_e_is_not_taken_for_the_number_where_it_may_be_epsilon(text: str) -> None:
+    with pytest.raises(Unreadable, match="'e' may be ε or the number e; write epsilon"):
+        read_number(text, ("epsilon",))
+    assert read_number(text, ("gamma",)).value
+
+
+@pytest.mark.parametrize("text", ["-[2 4]/8", "-1/8 [2 4]", "-[1/4 1/2]", "-(0.25, 0.5)", "[-2 -4]/8"])
+def test_a_sign_before_a_bracket_counts_for_every_entry(text: str) -> None:
+    assert [entry.value for entry in read_vector(text, 2)] == [fmpq(-1, 4), fmpq(-1, 2)]
+    assert [entry.value for entry in read_matrix(text, (1, 2))[0]] == [fmpq(-1, 4), fmpq(-1, 2)]
 
 
 MOMENTS = {"names": ("μ_1", "Σ_1"), "called": ("mean", "variance")}
