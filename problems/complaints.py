@@ -133,6 +133,8 @@ def says(fault: Mapping[str, Any]) -> str:
     if kind == "string_pattern_mismatch":
         signs = "neither $ nor a backslash" if "$" in context["pattern"].removesuffix("$") else "no backslash"
         return f"may hold {signs}; take them out"
+    if kind == "int_type" and isinstance(given, str) and given.isdecimal():
+        return f"{called(given)} is a text; write {given}, without quotes"
     if kind not in _SAYS:
         return str(fault["msg"]).removeprefix("Value error, ").removesuffix(".")
     listed = _as_list(given) if isinstance(given, str | int) else "[1, 2]"
