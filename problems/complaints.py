@@ -70,13 +70,13 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
     path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)
     more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
     if first["type"] == "extra_forbidden":
-        known = _known(schema, place[:-1])
+        known = [name for name in _known(schema, place[:-1]) if name != place[-1]]
         all_of_them = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
         if 0 < len(known) <= _FIELDS:
             all_of_them = (
                 f"the field{'s' * (len(known) > 1)} there {'are' if len(known) > 1 else 'is'} {', '.join(known)}"
             )
-        return f"given{path} is not a field{nearest(str(place[-1]), known)}; {all_of_them}{more}."
+        return f"given{path} is not a field{_meant(schema, place, known)}; {all_of_them}{more}."
     told = says(first)
     if first["type"] == "model_type" and 0 < len(names := _known(schema, place)) <= _SHOWN:
         told = f"{told}: {', '.join(names)}"
@@ -95,6 +95,15 @@ def nearest(name: str, known: Sequence[str]) -> str:
     alike = [each for each in known if each[:1].lower() == name[:1].lower()]  # few slips are made in the first letter
     close = meant or get_close_matches(name.lower(), alike, n=1, cutoff=0.5)
     return f" (did you mean {close[0]}?)" if close else ""
+
+
+def _meant(whole: Schema, place: Sequence[int | str], known: Sequence[str]) -> str:
+    """Which field was probably meant: one of that name in a table that belongs there, or one of a name like it."""
+    *around, name = place
+    inside = [f"{table}.{name}" for table in known if name in _known(whole, [*around, table])]
+    if inside:
+        return f" (did you mean {inside[0]}?)"
+    return nearest(str(name), known)
 
 
 def _known(whole: Schema, place: Sequence[int | str]) -> list[str]:

@@ -116,6 +116,9 @@ def test_the_forms_of_a_model_are_told_apart() -> None:
             {"xyz": 1},
             "xyz is not a field; the fields there are known, trajectory, values, alpha, gamma, td_errors, transitions",
         ),
+        ("q-learning", {"terminal": ["x"]}, "given.terminal is not a field (did you mean trajectory.terminal?); the"),
+        ("td-zero", {"rewards": [1]}, "given.rewards is not a field (did you mean trajectory.rewards?); the fields"),
+        ("value-iteration", {"transitions": []}, "given.transitions is not a field (did you mean mdp.transitions?)"),
         (
             "value-iteration",
             {"mdp": {"xyz": 1}},

@@ -82,3 +82,10 @@ def test_the_problem_is_the_one_that_was_meant() -> None:
     assert rldrill.read({"family": "eligibility-trace", "given": given}).answers() == {
         "a": {"a": Fraction(481, 400), "b": Fraction(9, 20)}
     }
+
+
+def test_the_letters_of_a_state_may_have_their_index_without_a_sign() -> None:
+    """∂(−4x₁ + x₁x₂ + u₁) is −4 + x₂ = −2 by x₁, x₁ = 1 by x₂, and 1 by u₁."""
+    given = {"dynamics": {"x1": "x_2", "x₂": "-4 x1 + x₁*x2 + u1"}, "state": {"x_1": 1, "x2": 2}, "action": {"u1": 0}}
+    answers = rldrill.read({"family": "linearise", "given": given}).answers()
+    assert answers == {"a": ((0, 1), (-2, 1)), "b": ((0,), (1,))}
