@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rldrill.problems.readings import is_zero
+from rldrill.problems.transition_tables import ALONE
 
 _SHAPES = "one number for every state, (S,); for every state and action, (S, A); or shaped like P, (A, S, S)"
 
@@ -46,6 +47,8 @@ SCHEMA: dict[str, Any] = {
 def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
     """Arrays P[a][s][s′] and R as the transitions of a model; states and actions are called 0, 1, 2, …
 
+    A process without actions has P[s][s′].
+
     Rewards of states, R[s], and of actions, R[s][a], are earned by what is done there. An array cannot say in which
     states an episode ends: they may be listed as ``terminal``, and are else states like the others.
 
@@ -59,6 +62,9 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
         raise ValueError("R, the array of rewards, is missing beside P; add it")
     P, R = data["P"], data["R"]
     shape = _shape(P)
+    alone = len(shape) == 2 and shape[0] == shape[1]
+    if alone:
+        P, R, shape = [P], [R] if _shape(R) == shape else R, (1, *shape)
     if len(shape) != 3 or shape[1] != shape[2]:
         raise ValueError(f"P has the shape {_told(shape)}; it must be (A, S, S), a square of S states for each action")
     actions, states, _ = shape
@@ -67,7 +73,13 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
         raise ValueError(f"R has the shape {_told(kind)}, which does not fit P's {_told(shape)}; give {_SHAPES}")
     terminal = [str(state) for state in data.get("terminal", ())]
     rows = [
-        [str(s), str(a), str(after), chance, R[s] if len(kind) == 1 else R[s][a] if len(kind) == 2 else R[a][s][after]]
+        [
+            str(s),
+            ALONE if alone else str(a),
+            str(after),
+            chance,
+            R[s] if len(kind) == 1 else R[s][a] if len(kind) == 2 else R[a][s][after],
+        ]
         for s in range(states)
         if str(s) not in terminal
         for a in range(actions)

@@ -14,8 +14,6 @@ from rldrill.problems.models import Hypotheses, Name, Named, OpenDistributionFie
 from rldrill.problems.readings import distribution, note_of, told
 
 Likelihood = Mapping[str, Mapping[str, Scalar]]
-#: Where actions lead: for every action and state the probabilities of the next states.
-MotionField = Named[Named[OpenDistributionField]]
 Motion = Mapping[str, Mapping[str, Mapping[str, Scalar]]]
 
 #: So many products are summed by all predictions of a run; one among all states of the largest model is.
@@ -39,6 +37,22 @@ def _turned(table: Likelihood) -> dict[str, dict[str, Scalar]]:
     """A table with its rows as columns."""
     columns = dict.fromkeys(column for row in table.values() for column in row)
     return {column: {name: row[column] for name, row in table.items() if column in row} for column in columns}
+
+
+def _by_action(motion: Motion) -> Motion:
+    """A motion by action and state; written so, or by state and action, where the states that are reached tell."""
+    acting = {state for rows in motion.values() for state in rows}
+    reached = {after for rows in motion.values() for row in rows.values() for after in row}
+    if reached & acting or not reached & set(motion):
+        return motion
+    return {
+        action: {state: rows[action] for state, rows in motion.items() if action in rows}
+        for action in dict.fromkeys(action for rows in motion.values() for action in rows)
+    }
+
+
+#: Where actions lead: for every action and state the probabilities of the next states.
+MotionField = Annotated[Named[Named[OpenDistributionField]], AfterValidator(_by_action)]
 
 
 def _fits(table: Likelihood) -> bool:

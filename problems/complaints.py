@@ -1,14 +1,14 @@
 """What is wrong with the givens of a problem file, as one plain sentence that names the field."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
 from pydantic import ValidationError
 
 from rldrill.problems.exact import called
-from rldrill.problems.expressions import GREEK
+from rldrill.problems.habits import ALSO
 
 _LONGEST = 40
 _PLACE = re.compile(r"([a-z_]+(?:\[\d+\])*): ", re.IGNORECASE)
@@ -21,11 +21,8 @@ _BETWEEN = re.compile(r"\s*;\s*|,\s+")
 _SPACED, _NUMBERS = re.compile(r"\s+"), re.compile(r"[-+−]?[\d./]+(?:\s+[-+−]?[\d./]+)+")
 #: So many of them are shown.
 _SHOWN = 5
-#: What fields are called elsewhere.
-_ALSO = {
-    "discount": "gamma", "discount_factor": "gamma", "step_size": "alpha", "learning_rate": "alpha", "lambda": "lam",
-    "λ": "lam",
-} | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
+#: So many fields are named.
+_FIELDS = 14
 #: What to say of the faults that pydantic finds, by its names for them.
 _SAYS = {
     "missing": "is missing; add it",
@@ -73,12 +70,20 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
     path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)
     more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
     if first["type"] == "extra_forbidden":
-        near = nearest(str(place[-1]), _known(schema, schema, place[:-1]))
-        known = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
-        return f"given{path} is not a field{near}; {known}{more}."
+        known = [name for name in _known(schema, place[:-1]) if name != place[-1]]
+        all_of_them = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
+        if 0 < len(known) <= _FIELDS:
+            all_of_them = (
+                f"the field{'s' * (len(known) > 1)} there {'are' if len(known) > 1 else 'is'} {', '.join(known)}"
+            )
+        return f"given{path} is not a field{_meant(schema, place, known)}; {all_of_them}{more}."
     told = says(first)
-    if first["type"] == "model_type" and 0 < len(names := dict.fromkeys(_known(schema, schema, place))) <= _SHOWN:
+    if first["type"] == "model_type" and 0 < len(names := _known(schema, place)) <= _SHOWN:
         told = f"{told}: {', '.join(names)}"
+    if first["type"] == "tuple_type" and (size := _row(schema, place)):
+        told = f"must be a list of {size} entries, in brackets of its own"
+    elif first["type"] == "tuple_type" and (size := _row(schema, [*place, 0])):
+        told = f"must be a list, in which each entry is a list of {size}"
     if begun := _PLACE.match(told):  # what a whole model says of one of its fields
         path, told = f"{path}.{begun[1]}", told[begun.end() :]
     return f"given{path}: {told}{more}."
@@ -86,25 +91,45 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
 
 def nearest(name: str, known: Sequence[str]) -> str:
     """The one of these that a name was probably meant to be, in brackets; nothing where none is near."""
-    meant = [each for each in (name.lower(), _ALSO.get(name.lower())) if each in known]
-    close = meant or get_close_matches(name.lower(), known, n=1, cutoff=0.5)
+    meant = [each for each in (name.lower(), ALSO.get(name.lower())) if each in known]
+    alike = [each for each in known if each[:1].lower() == name[:1].lower()]  # few slips are made in the first letter
+    close = meant or get_close_matches(name.lower(), alike, n=1, cutoff=0.5)
     return f" (did you mean {close[0]}?)" if close else ""
 
 
-def _known(whole: Schema, schema: Schema, place: Sequence[int | str]) -> list[str]:
+def _meant(whole: Schema, place: Sequence[int | str], known: Sequence[str]) -> str:
+    """Which field was probably meant: one of that name in a table that belongs there, or one of a name like it."""
+    *around, name = place
+    inside = [f"{table}.{name}" for table in known if name in _known(whole, [*around, table])]
+    if inside:
+        return f" (did you mean {inside[0]}?)"
+    return nearest(str(name), known)
+
+
+def _known(whole: Schema, place: Sequence[int | str]) -> list[str]:
     """The fields of the table at a place, in any form that it may have."""
+    return list(dict.fromkeys(name for schema in _at(whole, whole, place) for name in schema.get("properties", ())))
+
+
+def _row(whole: Schema, place: Sequence[int | str]) -> int:
+    """How many entries a row has that may stand at a place; 0 where none may."""
+    return next((len(form["prefixItems"]) for form in _at(whole, whole, place) if "prefixItems" in form), 0)
+
+
+def _at(whole: Schema, schema: Schema, place: Sequence[int | str]) -> Iterator[Schema]:
+    """What may stand at a place, in any form that what is around it may have."""
     if "$ref" in schema:
-        return _known(whole, whole["$defs"][schema["$ref"].rpartition("/")[2]], place)
-    forms = [*schema.get("anyOf", ()), *schema.get("oneOf", ())]
-    found = [name for form in forms for name in _known(whole, form, place)]
+        schema = whole["$defs"][schema["$ref"].rpartition("/")[2]]
     if not place:
-        return [*schema.get("properties", ()), *found]
-    step, *rest = place
-    if isinstance(step, int):
-        inner = schema.get("items")
-    else:
-        inner = schema.get("properties", {}).get(step, schema.get("additionalProperties"))
-    return [*found, *(_known(whole, inner, rest) if isinstance(inner, dict) else ())]
+        yield schema
+    for form in (*schema.get("anyOf", ()), *schema.get("oneOf", ())):
+        yield from _at(whole, form, place)
+    if place:
+        step, *rest = place
+        whose = schema.get("properties", {}).get(step, schema.get("additionalProperties"))
+        inner = schema.get("items") if isinstance(step, int) else whose
+        if isinstance(inner, dict):
+            yield from _at(whole, inner, rest)
 
 
 def says(fault: Mapping[str, Any]) -> str:
@@ -117,6 +142,8 @@ def says(fault: Mapping[str, Any]) -> str:
     if kind == "string_pattern_mismatch":
         signs = "neither $ nor a backslash" if "$" in context["pattern"].removesuffix("$") else "no backslash"
         return f"may hold {signs}; take them out"
+    if kind == "int_type" and isinstance(given, str) and given.isdecimal():
+        return f"{called(given)} is a text; write {given}, without quotes"
     if kind not in _SAYS:
         return str(fault["msg"]).removeprefix("Value error, ").removesuffix(".")
     listed = _as_list(given) if isinstance(given, str | int) else "[1, 2]"

@@ -1,5 +1,6 @@
 """Expressions in letters as texts: ``(u - b*ω - m g l sin(θ))/(m l²)``. Read, never executed."""
 
+import re
 import unicodedata
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -25,19 +26,21 @@ GREEK = {
 }  # fmt: skip
 #: Letters that mean something already.
 _TAKEN = {"e": "the number e", "π": "the number π", "t": "the time"}
+#: An index without its sign: x1, θ₁.
+_INDEXED = re.compile(r"^([^\W\d_]+)([0-9])$")
 _LONGEST, _MOST = 300, 180
 _HIGHEST = 4
 
 
 @lru_cache(maxsize=1024)
 def letter(name: str) -> str:
-    """A name as it is used: ``theta_1`` is ``θ_1``.
+    """A name as it is used: ``theta_1``, ``theta1`` and ``θ₁`` are ``θ_1``.
 
     Raises:
         ValueError: it is not one letter (or a Greek one spelled out), perhaps with an index.
     """
     # One sign of several for the same letter: φ for ϕ.
-    head, _, index = unicodedata.normalize("NFKC", name).partition("_")
+    head, _, index = _INDEXED.sub(r"\1_\2", unicodedata.normalize("NFKC", name)).partition("_")
     head = GREEK.get(head, head)
     if not index and head in _TAKEN:
         raise ValueError(f"{name!r} is {_TAKEN[head]}; write another letter, such as θ, theta or m_1")

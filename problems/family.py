@@ -21,6 +21,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import Logarithm, Parameter
 from rldrill.problems.fractions import Fraction
+from rldrill.problems.habits import settled
 from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part, lettered
 from rldrill.problems.readings import Note
@@ -215,10 +216,24 @@ class Family(Struct, frozen=True, dict=True):
             FileError: they do not fit; the sentence names the field.
         """
         try:
-            return self._reader.validate_python(given, context=note)
+            return self._validated(given, note)
         except ValidationError as error:
-            tagged = len(self.kinds) > 1
-            raise FileError(sentence(error, self.schema(), family=self.name, tagged=tagged)) from None
+            fault, meant = error, settled(given, self.schema())  # a schema takes a while, so only where it is needed
+        if meant != given:
+            try:
+                return self._validated(meant, note)
+            except ValidationError as error:
+                fault = error
+        raise FileError(sentence(fault, self.schema(), family=self.name, tagged=len(self.kinds) > 1)) from None
+
+    def _validated(self, given: object, note: Note | None) -> Givens:
+        """The same, with nothing told of what is refused in the end."""
+        told: list[str] = []
+        found = self._reader.validate_python(given, context=told.append)
+        if note is not None:
+            for each in told:
+                note(each)
+        return found
 
     def schema(self) -> dict[str, Any]:
         """The JSON Schema of what a file gives; it is made once, so nobody may change it."""

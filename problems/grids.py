@@ -109,6 +109,11 @@ class Grid(BaseModel):
                     rows += self._outcomes(cells, cell, move)
         return rows, [OVER] if self.exits and ends else [_name(cell) for cell in sorted(ends)]
 
+    def without_meaning(self) -> tuple[str, ...]:
+        """The names in the drawing of which nothing is said; S, where one starts, needs none."""
+        said = {FREE, WALL, "S", *self.rewards, *self._ends(), *self.returns, *self.returns.values()}
+        return tuple(dict.fromkeys(sign for sign in self._cells().values() if sign not in said))
+
     def _ends(self) -> tuple[str, ...]:
         if self.ends is not None:
             return self.ends
@@ -172,6 +177,10 @@ def _name(cell: Cell) -> str:
     return f"r{cell[0] + 1}c{cell[1] + 1}"
 
 
+def _are_signs(row: object) -> bool:
+    return isinstance(row, list | tuple) and all(isinstance(sign, str) for sign in row)
+
+
 def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     """A drawn grid as the transitions of a model.
 
@@ -182,6 +191,9 @@ def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     Raises:
         ValueError: the drawing does not fit.
     """
+    rows = data["grid"]
+    if isinstance(rows, list | tuple):  # as Gymnasium has its maps
+        data = {**data, "grid": "\n".join("".join(row) if _are_signs(row) else str(row) for row in rows)}
     try:
         grid = Grid.model_validate(data, context=note)
         transitions, terminal = grid.transitions()
@@ -191,4 +203,6 @@ def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
         if first["type"] == "extra_forbidden":
             raise ValueError(f"{where} is not a field of a grid{nearest(where, tuple(Grid.model_fields))}") from None
         raise ValueError(f"{where}: {says(first)}") from None
+    if plain := grid.without_meaning():
+        note(f"took {' and '.join(plain)}, with no reward and no end, for free cells")
     return {"transitions": transitions, "terminal": terminal, "story": grid.told()}

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from rldrill.problems.grids import OVER
 from rldrill.problems.readings import is_zero
 
 _ENTRY = "[probability, next state, reward, whether the episode ends]"
@@ -88,12 +89,17 @@ def read_table(data: Mapping[str, Any]) -> dict[str, Any]:
 def from_table(table: Mapping[Any, Mapping[Any, Any]]) -> dict[str, Any]:
     """A table ``{state: {action: [(probability, next state, reward, ends), …]}}`` as a model's transitions.
 
-    A state that is entered where the episode ends is terminal, whatever the table says of it.
+    A state that is entered where the episode ends is terminal, whatever the table says of it; but where the episode
+    also goes on from there, or ends there for who stays only, it ends in a state of its own.
 
     Raises:
         ValueError: an entry has another form.
     """
     lines = list(_lines(table))
+    ended = {after for state, *_, after, _, ends in lines if ends and after != state}
+    lived_in = {after for state, *_, after, _, ends in lines if not ends and state not in ended}
+    lived_in |= {state for state, *_ in lines if state not in ended}
+    lines = [(*line[:3], OVER if line[-1] and line[3] in lived_in else line[3], *line[4:]) for line in lines]
     terminal = {after for *_, after, _, ends in lines if ends}
     return {
         "transitions": [

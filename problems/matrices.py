@@ -18,6 +18,7 @@ _WRITTEN = re.compile(
     r"\\(?:begin|end)\s*\{[bpv]?(?:small)?matrix\}|\\\\|&|^\s*(?:(?:np|numpy|jnp)\.)?(?:array|matrix)\(|\)\s*$"
 )
 _PLAIN = {"&": ",", "\\\\": ";"}
+_MADE = re.compile(r"\s*(?:(?:np|numpy|jnp)\.)?(?:eye|diag|identity|zeros|ones)\s*\(|\s*I(?:_?\d)?\s*$")
 _ROW = re.compile(r"\[([^\[\]]+)\]")
 
 
@@ -30,9 +31,20 @@ def _typed_rows(text: str) -> list[list[str]] | None:
     return [re.split(r"\s*,\s*" if "," in row else r"\s+", row.strip().rstrip(",")) for row in rows if row.strip()]
 
 
+def _read_rows(text: str) -> Any:
+    """The rows of a matrix that is written as a text, or the text of one number.
+
+    Raises:
+        ValueError: it names a matrix that would have to be made.
+    """
+    if _MADE.match(text):
+        raise ValueError(f"{text[:40]!r} is not worked out here; write its rows, as [[1, 2], [3, 4]] or '[1 2; 3 4]'")
+    return _typed_rows(text) or text
+
+
 def _rows(value: Any) -> Any:
     if isinstance(value, str):
-        value = _typed_rows(value) or value
+        value = _read_rows(value)
     if not isinstance(value, list | tuple):
         return ((value,),)
     if not all(isinstance(line, list | tuple) for line in value):
@@ -40,10 +52,16 @@ def _rows(value: Any) -> Any:
     return value
 
 
+def _column(value: Any) -> Any:
+    """A column may be a plain list, as vectors are."""
+    plain = isinstance(value, list | tuple) and not any(isinstance(entry, list | tuple) for entry in value)
+    return [[entry] for entry in value] if plain else value
+
+
 def _by_time(value: Any) -> Any:
     """One matrix for all times, or a list of matrices, one for every time; 1×1 ones may be plain numbers."""
     if isinstance(value, str):
-        value = _typed_rows(value) or value
+        value = _read_rows(value)
     if not isinstance(value, list | tuple):
         return (value,)
     rows_of_one = all(isinstance(line, list | tuple) and not any(map(_is_row, line)) for line in value)
@@ -78,6 +96,7 @@ _MATRIX: dict[str, Any] = {
 }
 _BY_TIME = _MATRIX | {"title": "a matrix, as a list of rows or a text such as '[1 2; 3 4]', or a list of matrices"}
 MatrixField = Annotated[_Exact, AfterValidator(_even), WithJsonSchema(_MATRIX)]
+ColumnField = Annotated[_Exact, BeforeValidator(_column), AfterValidator(_even), WithJsonSchema(_MATRIX)]
 OpenMatrixField = Annotated[_Open, AfterValidator(_even), WithJsonSchema(_MATRIX)]
 #: A matrix without anything left open.
 NumberRows = tuple[tuple[Fraction, ...], ...]

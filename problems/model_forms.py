@@ -108,7 +108,7 @@ def _read_P(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     if isinstance(P, Mapping):
         return gymnasium.read_table(data)
     model = arrays.read_arrays(data)
-    if len(P) == len(P[0]):  # the other order would fit, too
+    if isinstance(P[0][0], list | tuple) and len(P) == len(P[0]):  # the other order would fit, too
         note("took P for P[action][state][next], as pymdptoolbox has it")
     return model
 

@@ -281,7 +281,7 @@ def check_sum(probabilities: Iterable[Scalar], what: str) -> None:
 
 
 Policy = Mapping[str, Mapping[str, OpenProbability]]
-UNIFORM = ("uniform", "equiprobable")
+UNIFORM = ("uniform", "equiprobable", "random")
 
 
 def _meant(chances: dict[str, Chance], info: ValidationInfo) -> dict[str, Chance]:
@@ -290,6 +290,8 @@ def _meant(chances: dict[str, Chance], info: ValidationInfo) -> dict[str, Chance
 
 def _certain(value: object) -> object:
     """Let what is certain be written as its name alone."""
+    if value in UNIFORM[:2]:
+        raise ValueError(f"{value!r} says not of what; write every name with its probability: {{A = '1/2', B = '1/2'}}")
     return {value: 1} if isinstance(value, str | int) and not isinstance(value, bool) else value
 
 

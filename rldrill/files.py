@@ -28,6 +28,7 @@ _DOTTED = re.compile(rf"(?<![^\s.\[{{,])(?:{_KEY}\.[ \t]*+){{{_DEEPEST}}}", re.A
 #: A fraction that is no text, and what is one; a line of YAML.
 _BARE_FRACTION = re.compile(r"(?<![\w./-])-?\d+/\d+(?![\w./-])")
 _QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")
+_QUOTE = re.compile("[\"']")
 _YAML = re.compile(r"\s*(?:- )?[\w-]+:(?:\s|$)")
 _SPELLED = {glyph: name for name, glyph in GREEK.items()}
 _GREEK_NAME = re.compile(rf"[\w-]*[{''.join(GREEK.values())}][\w-]*")
@@ -173,6 +174,8 @@ def _toml(text: str) -> object:
 def _cure(message: str, line: str) -> str:
     """What to do about a line of TOML that cannot be read, by the most usual slips."""
     key = line.partition("=")[0].strip()
+    if r"'\n'" in message and len(_QUOTE.findall(line)) % 2:
+        return "a quote that begins there is not closed; close it"
     if "overwrite" in message:
         return f"{key[:_KEY_SHOWN]} stands twice; keep one of them"
     if found := _BARE_FRACTION.search(_QUOTED.sub("", line)):

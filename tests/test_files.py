@@ -31,6 +31,12 @@ BAD = [
     ("yaml.toml", "family: return\n", "write name = value, as TOML has it; YAML is not read."),
     ("date.toml", 'a = "1/2" x', "(expected newline or end of document after a statement); fix it there."),
     ("twice.toml", "a = 1\na = 2\n", "line 2, column"),
+    (
+        "quote.toml",
+        'a = "x\nb = 1\n',
+        "line 1, column 7: the syntax is broken (illegal character '\\n'); a quote that "
+        "begins there is not closed; close it.",
+    ),
     ("broken.json", '{"a": 1,\n "b" 2}', "line 2, column 6: the syntax is broken (expecting ':' delimiter)"),
     ("end.json", '{"a": ', "the syntax is broken"),
     ("after.json", "{} {}", "line 1, column 4: the syntax is broken (extra data)"),

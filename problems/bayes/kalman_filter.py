@@ -13,6 +13,7 @@ from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
+    ColumnField,
     MatrixField,
     OpenMatrixField,
     Rows,
@@ -38,8 +39,8 @@ _EFFORT = 100
 class Event(Givens):
     """What happens in one step: a motion with the command u, then unless z is missing a measurement."""
 
-    u: MatrixField | None = Field(default=None, description="The command of the motion, a column; 0 if left out.")
-    z: MatrixField | None = Field(default=None, description="The measurement after it, a column, if there is one.")
+    u: ColumnField | None = Field(default=None, description="The command of the motion, a column; 0 if left out.")
+    z: ColumnField | None = Field(default=None, description="The measurement after it, a column, if there is one.")
 
 
 class Given(AskedFor):
@@ -50,7 +51,7 @@ class Given(AskedFor):
     measurement on a line, the variance of one noise is left open and found from it.
     """
 
-    mean: MatrixField = Field(description="The mean of the first belief, a column.")
+    mean: ColumnField = Field(description="The mean of the first belief, a column.")
     covariance: MatrixField = Field(description="The covariance of the first belief.")
     A: MatrixField = Field(default=_ONE, description="How the state moves by itself.")
     B: MatrixField = Field(
@@ -93,12 +94,14 @@ class Given(AskedFor):
             ("C", self.C, readings, n), ("process", self.process, n, n), ("sensor", self.sensor, readings, readings),
             *((("B", self.B, n, inputs),) if self.driven else ()),
         ):  # fmt: skip
-            check_shape(name, matrix, rows, columns, f"with a mean of {n} and {readings} readings ")
+            check_shape(
+                name, matrix, rows, columns, f"with a mean of {n} and {readings} reading{'s' * (readings > 1)} "
+            )
         for event in self.steps:
             if event.u is not None:
                 check_shape("u", event.u, inputs, 1, f"with {inputs} inputs ")
             if event.z is not None:
-                check_shape("z", event.z, readings, 1, f"with {readings} readings ")
+                check_shape("z", event.z, readings, 1, f"with {readings} reading{'s' * (readings > 1)} ")
         check_weights("covariance", self.covariance, positive=False)
         check_weights("process", self.process, positive=False)
         check_weights("sensor", self.sensor, positive=True)

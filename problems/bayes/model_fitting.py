@@ -234,6 +234,9 @@ def _sample(sample: Sample) -> Question:
     return Question(blocks, tuple(parts))
 
 
+_CALLED = ("slope", "intercept")
+
+
 def _line(line: Line) -> Question:
     blocks = (
         Paragraph("A sensor was read at some places $x$ along a track. Its readings are $y$:"),
@@ -246,7 +249,7 @@ def _line(line: Line) -> Question:
             "$y = θ_0 + θ_1 x + ε$."
         ),
     )
-    entries = Numbers(("θ̂_1", "θ̂_0"))
+    entries = Numbers(("θ̂_1", "θ̂_0"), called=_CALLED)
     ask = "What are the maximum likelihood (least squares) estimates of the slope $θ_1$ and the intercept $θ_0$?"
     parts = [Part(ask, entries)]
     if line.prior is not None:
@@ -258,6 +261,6 @@ def _line(line: Line) -> Question:
             known = f"The maximum a posteriori estimate of the slope is ${shown(line.prior.estimate)}$."
             parts.append(Part(f"{told} {known} What is $w$?", Number()))
         else:
-            with_prior = Numbers(('θ̂_{1,"MAP"}', 'θ̂_{0,"MAP"}'))
+            with_prior = Numbers(('θ̂_{1,"MAP"}', 'θ̂_{0,"MAP"}'), called=_CALLED)
             parts.append(Part(f"{told} What are their maximum a posteriori estimates?", with_prior))
     return Question(blocks, tuple(parts))

@@ -37,8 +37,8 @@ class Observed(Givens):
     def _consistent(self) -> "Observed":
         if len(self.rewards) != len(self.states):
             raise ValueError(
-                f"an episode of {len(self.states)} states earns as many rewards, the last one at its end, "
-                f"not {len(self.rewards)}"
+                f"an episode of {len(self.states)} states earns as many rewards, not {len(self.rewards)}; "
+                "leave out the terminal state, or give the reward that is missing"
             )
         return self
 

@@ -41,7 +41,7 @@ class Given(Reversible):
         known = tuple(self.values)
         check_keys(dict.fromkeys(state for state, _ in self.visits), known, "a return", needed=())
         if self.alpha is None:
-            check_keys(self.counts, known, "the number of visits", needed=known)
+            check_keys(self.counts, known, "counts: the number of visits", needed=known)
             if negative := [state for state, count in self.counts.items() if not 0 <= count <= 10**6]:
                 raise ValueError(
                     f"counts: {negative[0]!r} cannot have been visited {self.counts[negative[0]]} times; give 0 or more"

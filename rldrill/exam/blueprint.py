@@ -221,6 +221,10 @@ def _sentence(error: ValidationError, text: str, where: str) -> str:
         return f"{at}: {name[:40]!r} is not a field of {whose}{near}{more}."
     if place == ["problems"] and isinstance(first["input"], dict):
         return f"{at}: every problem begins with a line [[problems]], in two brackets{more}."
+    if first["type"] == "model_type":
+        return (
+            f"{at}: a problem is not its name alone; write a line [[problems]], and below it family = 'return'{more}."
+        )
     return f"{at}: {name}: {says(first)}{more}."
 
 

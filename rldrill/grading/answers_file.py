@@ -31,6 +31,11 @@ _POINT = re.compile(r"[0-9]\.[0-9]|(?<![0-9A-Za-z])\.[0-9]")
 _LARGEST = 10**6
 #: A problem's number in an exam.
 PLACE = re.compile(r"[1-9][0-9]{0,2}")
+#: The same as people write it, perhaps with the part: Problem 5, #5, 5.0 of a spreadsheet, 4a, 4 (a).
+_NUMBERED = re.compile(
+    r"(?:(?:problem|question|exercise|task|aufgabe|p|q|#)\.?\s*)?([1-9][0-9]{0,2})(?:\.0?|\)|[.\s]*\(?([a-z])\)?)?",
+    re.IGNORECASE,
+)
 _BARE_ID = re.compile(r"^[ \t]*+\[?[ \t]*+(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
 
 
@@ -87,6 +92,7 @@ class Refusal(Struct, frozen=True):
         says: the sentence with the place, the reason and what to do.
         exit_code: 3 for what is unreadable, 4 for a file without answers.
         problem: the problem, where it is known.
+        number: the student's number, where it is known.
     """
 
     path: str
@@ -95,6 +101,7 @@ class Refusal(Struct, frozen=True):
     says: str
     exit_code: int = FileError.exit_code
     problem: str = ""
+    number: str = ""
 
 
 class HandedIn(Struct, frozen=True):
@@ -162,9 +169,9 @@ def _row(fields: Mapping[str, object], line: int | None, column: int | None, pat
     try:
         return _entry(fields, line, column, path)
     except FileError as error:
-        student = fields.get("student") or fields.get("number")
-        whose = student if isinstance(student, str | int) else ""
-        return Refusal(shown(path), line, _in_one_line(str(whose)), str(error))
+        student, number = (_in_one_line(str(fields[name])) if isinstance(fields.get(name), str | int) else ""
+                           for name in ("student", "number"))  # fmt: skip
+        return Refusal(shown(path), line, student or number, str(error), number=number)
 
 
 def _entry(fields: Mapping[str, object], line: int | None, column: int | None, path: Path) -> Entry:
@@ -175,6 +182,8 @@ def _entry(fields: Mapping[str, object], line: int | None, column: int | None, p
     """
     place = Entry("", "", "", "", line, path, column=column).where
     student, number, problem, part = (_word(fields.get(name), name, place) for name in _NAMED)
+    if numbered := _NUMBERED.fullmatch(problem):
+        problem, part = numbered[1], part or (numbered[2] or "").lower()
     if (
         not looks_like_id(problem)
         and not PLACE.fullmatch(problem)
@@ -264,7 +273,7 @@ def _csv(text: str, path: Path) -> Iterator[Row]:
     separator, header, records = table(text, path, _COLUMNS, _NEEDED)
     column = header.index("answer") + 1
     rows = [
-        Refusal(shown(path), line, _whose(found), found["says"])
+        Refusal(shown(path), line, _whose(found), found["says"], number=_in_one_line(found.get("number", "")))
         if "says" in found
         else _row({name: found[name] for name in _KNOWN if name in found}, line, column, path)
         for line, found in records

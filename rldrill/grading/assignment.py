@@ -53,6 +53,7 @@ class Assignment:
         self.versions = {each.code: each for each in printed(manifest)}
         self._all: Printed | None = None
         self._roster: dict[str, Sitting] = {}
+        self._numbers: dict[str, Sitting] = {}
         self.people: list[Sitting] = []
         self._known = f"the versions of {shown(manifest)} are {', '.join(self.versions)}"
         if version is not None:
@@ -61,21 +62,25 @@ class Assignment:
             self._all = self.versions[version.upper()]
         elif len(self.versions) == 1:
             (self._all,) = self.versions.values()
+        people = [Sitting(each.person.name, each.person.number, each) for each in self.versions.values() if each.person]
         if roster is not None:
-            self._read(roster)
+            self._read(roster, people)
             self._all = None
-        elif version is None and any(each.person for each in self.versions.values()):
-            for each in self.versions.values():
-                if each.person is not None:
-                    self._put(Sitting(each.person.name, each.person.number, each))
+        elif version is None and people:
+            for each in people:
+                self._put(each)
             self._all = None
         elif self._all is None:
             raise UsageError(f"Who sat which version? {self._known}; say --version CODE or --roster FILE.csv.")
 
     def sitting(self, entry: Entry) -> Sitting:
         """The exam of whoever typed an answer."""
-        known = self._roster.get(folded(entry.number)) if entry.number else None
+        number = folded(entry.number)
+        known = self._roster.get(number) or self._numbers.get(number.lstrip("0")) if number else None
         known = known or self._roster.get(folded(entry.student))
+        if known is not None and known.version is None and number:
+            why = f"{known.why.partition(';')[0]}, and none of them has the number {entry.number!r}; correct it."
+            return Sitting(entry.student, entry.number, None, why)
         if known is not None:
             return known
         if self._all is not None:
@@ -124,6 +129,7 @@ class Assignment:
 
     def _put(self, sitting: Sitting) -> None:
         self.people.append(sitting)
+        self._numbers.setdefault(folded(sitting.number).lstrip("0"), sitting)  # a spreadsheet drops the zeros before it
         for name in filter(None, (sitting.number, sitting.student)):
             key = folded(name)
             if self._roster.setdefault(key, sitting) is not sitting:
@@ -131,14 +137,23 @@ class Assignment:
                     sitting.student, "", None, f"several students on the roster are called {name!r}; give the number."
                 )
 
-    def _read(self, path: Path) -> None:
-        """A roster: columns for the name (or first and last name) or the number, and for the version, if it differs."""
+    def _read(self, path: Path, people: Sequence[Sitting]) -> None:
+        """A roster: columns for the name (or first and last name) or the number, and for the version, if it differs.
+
+        Where the exam was printed for people, the roster that it was printed from will do.
+        """
         text = read_text(path, (".csv",))
-        needed = ("version",) if self._all is None else ()
+        needed = ("version",) if self._all is None and not people else ()
+        printed = {folded(name): each for each in people for name in (each.student, each.number) if name}
         for line, row in table(text, path, ("student", "number", "version"), needed)[2]:
             if "says" in row:
                 raise FileError(row["says"])
             code = row.get("version", "").upper() if self._all is None else self._all.code
+            if people and "version" not in row:
+                known = printed.get(folded(row.get("number", ""))) or printed.get(folded(row.get("student", "")))
+                if known is None or known.version is None:
+                    raise FileError(f"{shown(path)}, line {line}: the exam was not printed for them; add a version.")
+                code = known.version.code
             if code not in self.versions:
                 raise FileError(f"{shown(path)}, line {line}: there is no version {code[:20]!r}; {self._known}.")
             student = row.get("student", "")

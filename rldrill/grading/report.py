@@ -20,6 +20,7 @@ NOT_GRADED = "not graded"
 NOTHING = "handed in nothing"
 #: The same of those whose file could not be read; and where it is not known whose file that was.
 UNREAD, PERHAPS = "handed in, could not be read", "nothing was read; perhaps one of the files that could not be read"
+ELSEWHERE = "nothing was found under this name; perhaps it is under one that is not on the roster"
 #: No number that is shown has as many digits.
 _FLOAT = 16
 #: How much of the judgement a report tells, the least first.

@@ -16,6 +16,7 @@ from rldrill.grading.assignment import Assignment, Sitting
 from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
 from rldrill.grading.report import (
+    ELSEWHERE,
     NOT_GRADED,
     PERHAPS,
     UNREAD,
@@ -136,6 +137,7 @@ class _Run:
         self._assignment = settings.assignment
         self._hand_ins = settings.hand_ins or (HAND_INS[0] if settings.assignment else "")
         self._begun = perf_counter()
+        self._unknown: set[str] = set()
         self.notes: dict[str, tuple[str, ...]] = {}
 
     @property
@@ -149,22 +151,22 @@ class _Run:
     def students(self, handed: Sequence[HandedIn]) -> Iterator[_Student]:
         """Who answered, in the order of the files; then who is on the roster and did not."""
         found: dict[tuple[str, ...], _Student] = {}
-        unknown: set[str] = set()
         for each in handed:
             for entry in each.entries:
                 sitting = Sitting(entry.student, entry.number, None)
                 if self._assignment is not None:
                     sitting = self._assignment.sitting(entry)
                     if sitting.version is None:
-                        if entry.student not in unknown:
-                            unknown.add(entry.student)
+                        if entry.student not in self._unknown:
+                            self._unknown.add(entry.student)
                             self._refused.append(refusal(entry, sitting.why, ""))
                         continue
                 who = folded(sitting.number or sitting.student)
                 key = (who,) if self._hand_ins and who else (who, str(entry.path))
                 student = found.setdefault(key, _Student(sitting))
                 student.hand_ins.setdefault(entry.path, []).append(entry)
-                if entry.number and sitting.number and folded(entry.student) not in ("", folded(sitting.student)):
+                others = {folded(entry.student)} - {"", folded(entry.number), folded(sitting.student)}
+                if entry.number and sitting.number and others:
                     whose = f"number {sitting.number} is {sitting.student}'s, and beside it stands {entry.student!r}"
                     student.said[f"{shown(entry.path)}: {whose}; it is marked as {sitting.student}'s."] = None
         yield from found.values()
@@ -176,9 +178,11 @@ class _Run:
         """What is known of somebody of whom nothing was read: whether they handed in something all the same."""
         names = {folded(name) for name in (sitting.student, sitting.number) if name}
         unreadable = [each for each in self._refused if each.exit_code == FileError.exit_code]
-        if any(folded(each.student) in names for each in unreadable if each.student):
+        if any({folded(each.student), folded(each.number)} & names for each in unreadable):
             return UNREAD
-        return PERHAPS if any(each.line is None and not each.student for each in unreadable) else ""
+        if any(each.line is None and not each.student for each in unreadable):
+            return PERHAPS
+        return ELSEWHERE if self._unknown else ""
 
     def order(self, students: Sequence[_Student]) -> list[int]:
         """The numbers of the students, those of a version one after the other: only its problems are kept meanwhile."""

@@ -10,7 +10,12 @@ from rldrill.problems.spelling import Source, quoted
 
 _TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?\s*[Tt⊤]\s*\}?|ᵀ|\.T|\.?')$")
 _NOTHING = re.compile(r"[-–—?…]?")
-_FACTOR = re.compile(r"((?:[^()\[\],;|\s]|\((?:[^()\[\]]|\([^()\[\]]*\))+\))+?)\s*\*?\s*([\[(].*)", re.DOTALL)
+_FACTOR = re.compile(
+    r"(?P<factor>(?:[^()\[\],;|\s]|\((?:[^()\[\]]|\([^()\[\]]*\))+\))+?)\s*\*?\s*(?P<bracket>[\[(].*)", re.DOTALL
+)
+_DIVIDED = re.compile(
+    r"(?P<minus>-?)\s*(?P<bracket>[\[(].*[\])])\s*/\s*(?P<factor>[0-9.]+|√[0-9]+|[^\W\d_]+|\w*\([^()]*\))", re.DOTALL
+)
 _MIXED = re.compile(r"[0-9]+\s+[0-9]+\s*/\s*[0-9]+(?![0-9.])")
 
 
@@ -21,12 +26,15 @@ def untransposed(source: Source) -> Source:
 
 
 def unscaled(source: Source) -> tuple[str, Source]:
-    """What stands before a bracket of several entries, ``1/11 [5 3]``, and the bracket; no text where nothing does."""
-    if (found := _FACTOR.fullmatch(source.text)) is None:
-        return "", source
-    bracket = source.part(found.start(2), len(source.text))
-    inside, wrapped = unwrapped(bracket)
-    return (found[1], bracket) if wrapped and inside.has(",;| \n") else ("", source)
+    """The factor of a bracket of several entries, ``1/11 [5 3]`` or ``[5 3]/11``, and the bracket; no text without."""
+    for pattern, written in ((_FACTOR, "{factor}"), (_DIVIDED, "{minus}1/({factor})")):
+        if found := pattern.fullmatch(source.text):
+            bracket = source.part(*found.span("bracket"))
+            inside, wrapped = unwrapped(bracket)
+            if wrapped and inside.has(",;| \n"):
+                factor = written.format_map(found.groupdict())
+                return ("-1" if factor == "-" else factor), bracket
+    return "", source
 
 
 def unwrapped(source: Source) -> tuple[Source, bool]:

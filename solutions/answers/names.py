@@ -20,6 +20,8 @@ _NUMBERED = re.compile(r"(?:[^\W\d_]{1,9}\s?|#)_?(\d+)")  # Q1, s1, arm 2, #2, w
 _LETTER = re.compile(r"[^\W\d_]['′]*(?:_?\d+)?")  # s, s', s_0
 _INDEX = re.compile(r"(?<=\w)\((\d+)\)|_\{([^{}]*)\}")  # pi(1), s_{1}
 _SPELLED_OUT = str.maketrans({glyph: name for name, glyph in GREEK.items()} | {"π": "pi", "∂": "d"})
+_SQUARE = re.compile(r"(?:σ|sigma)(.*?)\s*(?:\^\s*\{?2\}?|²)")  # a variance, which is called Σ, too
+_DEVIATION = re.compile(r"σ|sigma")
 _LISTED = 60
 _LONGEST = 120  # longer names are none
 _WAYS = {
@@ -245,11 +247,16 @@ def entry_named(label: str, names: Sequence[str], called: Sequence[str] = ()) ->
         names: what the entries are, in mathematics.
         called: what they are called, in words; the beginning of one is enough.
     """
+    label = label.strip()
+    if _DEVIATION.match(label) and not any(name.startswith("σ") for name in names):
+        if (squared := _SQUARE.fullmatch(label)) is None:
+            return None  # a standard deviation
+        label = f"Σ{squared[1]}"
     for form in (_plain, _unmarked, _loose, lambda name: _loose(name).rstrip("0123456789")):
         hits = [index for index, name in enumerate(names) if form(name) in (_plain(label), _loose(label))]
         if len(hits) == 1:
             return hits[0]
-    begun = [index for index, word in enumerate(called) if word.startswith(label.strip().casefold())]
+    begun = [index for index, word in enumerate(called) if word.startswith(label.casefold())]
     return begun[0] if len(begun) == 1 else None
 
 

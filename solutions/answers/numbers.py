@@ -47,6 +47,8 @@ _MOST_FORMS = 8
 _ABOUT_BEHIND = re.compile(r"\s*\(?\s*\b(?:approx(?:imately)?|rounded|exact(?:ly)?)\b\.?\s*\)?$", re.IGNORECASE)
 _REPEATING = re.compile(r"(?<=\.)([0-9]+)\s*\(?(?:repeating|recurring|periodic)\b\)?", re.IGNORECASE)
 _WORD = re.compile(r"(?<![A-Za-z0-9_\\'\"])[A-Za-z]{2,}(?![A-Za-z0-9_.(\[])")
+#: What parameters are called for short.
+_SHORT = {"lam": "lambda", "eps": "epsilon"}
 _ENDLESS = frozenset({"nan", "inf", "infinity", "∞"})
 
 
@@ -271,6 +273,9 @@ def _together(forms: Sequence[_Form]) -> Reading:
 def _meant(name: Name, parameters: Sequence[str], behind_number: bool) -> str:
     """The parameter or constant that is meant by a name."""
     typed = name.text if name.text in parameters else name.text.lower()
+    typed = _SHORT.get(typed, typed)
+    if typed == "e" and "epsilon" in parameters:
+        raise Unreadable("'e' may be ε or the number e; write epsilon, or exp(1).", name.at)
     for parameter in parameters:
         if typed in (parameter, PARAMETERS.get(parameter)):
             return parameter

@@ -64,6 +64,7 @@ _NO = frozenset({"no", "n", "false", "f", "nein"})
 #: What parts yes or no from the reason for it.
 _WHY = re.compile(r"\s*[,;:.(–—]\s*|\s+(?:-|because|since|as)\s+")
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
+_RELATION = re.compile(r"[<>!]=|=[<>]|[≤≥≠]")
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
@@ -267,8 +268,9 @@ def read_table(
     asked = Asked(keys, ends)
     found = by_name(source, asked)
     if found is None:
-        body = untransposed(_unnamed(source))
+        factor, body = _scaled(untransposed(_unnamed(source)), parameters)
         rows = _number_rows(body, len(keys))
+        rows = [_times(factor, row) for row in rows] if factor else rows
         flat = [entry for row in rows for entry in row]
         found = in_order(rows, source, asked) if len(flat) <= asked.most else None
         if found is None:
@@ -485,8 +487,9 @@ def _labels(entries: Sequence[Source], called: Sequence[str]) -> list[re.Match[s
 
 
 def _called(words: Sequence[str]) -> re.Pattern[str]:
-    """One of these words before a value; nothing, where there are none."""
-    return re.compile(rf"()({'|'.join(words)})\s+(?=\S)" if words else "(?!)", re.IGNORECASE)
+    """One of these words, or its beginning, before a value; nothing, where there are none."""
+    begun = "|".join(f"{word[:3]}[a-z]*" for word in words)
+    return re.compile(rf"()({begun})\s+(?=\S)" if words else "(?!)", re.IGNORECASE)
 
 
 def _scaled(source: Source, parameters: Sequence[str]) -> tuple[str, Source]:
@@ -497,6 +500,16 @@ def _scaled(source: Source, parameters: Sequence[str]) -> tuple[str, Source]:
             number(Source(factor), parameters, Arithmetic())
             return factor, bracket
     return "", source
+
+
+def _refuse_relations(source: Source) -> None:
+    """Complain about ``k <= 4``, which is no value.
+
+    Raises:
+        Unreadable: it holds such a sign.
+    """
+    if found := _RELATION.search(source.text):
+        raise source.unreadable(f"{quoted(found[0])} is no equal sign; write the value alone.", found.start())
 
 
 def _times(factor: str, entries: Iterable[Source]) -> list[Source]:
@@ -514,6 +527,7 @@ def _forms(source: Source, read: Callable[[Source], Read], numbers: Callable[[Re
     Raises:
         Unreadable: the last cannot be read, or another one says something else.
     """
+    _refuse_relations(source)
     members = source.split("=≈")
     while len(members) > 1 and not members[0].text:
         del members[0]
@@ -555,6 +569,7 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
     for _ in range(2):  # a matrix of one number, too
         source = source.unwrapped("[") or source
     source = source.replaced(_ROUNDED, lambda match: f"{match[0]}.")
+    _refuse_relations(source)
     signs = [index for index, sign in source.outside() if sign in "=≈←"]
     if len(signs) > _FORMS:
         raise source.unreadable("It holds too many equal signs; write the value alone, once.")

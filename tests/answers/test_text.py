@@ -367,6 +367,85 @@ def test_vectors_refused(text, length, fragment):
     assert fragment in refusal(read_vector, text, length).message
 
 
+@pytest.mark.parametrize(
+    "text", ["(4, 7)/18", "[4 7] / 18", "1/18 (4, 7)", "(1/18)(4; 7)", "1/18 * [4 7]", "(8, 14)/(2*18)", "(4, 7)/√324"]
+)
+def test_a_factor_or_a_divisor_counts_for_every_entry(text: str) -> None:
+    ninths = [fmpq(2, 9), fmpq(7, 18)]
+    assert [entry.value for entry in read_vector(text, 2)] == ninths
+    assert [reading.value for reading in read_table(text, ("a", "b")).values()] == ninths
+
+
+def test_the_divisor_of_a_matrix() -> None:
+    rows = read_matrix("[22 -12; 3 -14]/34", (2, 2))
+    assert [[entry.value for entry in row] for row in rows] == [
+        [fmpq(11, 17), fmpq(-6, 17)],
+        [fmpq(3, 34), fmpq(-7, 17)],
+    ]
+
+
+@pytest.mark.parametrize("text", ["(4, 7)/18/2", "2 (4, 7)/18", "(4, 7)/2 3"])
+def test_what_is_divided_by_more_than_one_thing_is_not_read(text: str) -> None:
+    with pytest.raises(Unreadable):
+        read_vector(text, 2)
+    with pytest.raises(Unreadable):
+        read_table(text, ("a", "b"))
+
+
+def test_each_entry_may_be_divided() -> None:
+    assert [entry.value for entry in read_vector("(1 + 2)/3, (4 + 5)/3", 2)] == [1, 3]
+
+
+@pytest.mark.parametrize("text", ["k <= 4", "k >= 4", "x != 4", "R => 4", "error ≤ 4", "≥ 4", "V(s) =< 4"])
+def test_a_bound_is_no_value(text: str) -> None:
+    with pytest.raises(Unreadable, match="is no equal sign; write the value alone"):
+        read_number(text)
+    with pytest.raises(Unreadable):
+        read_vector(f"{text}, 5", 2)
+    with pytest.raises(Unreadable):
+        read_matrix(text.replace("4", "[4 5]"), (1, 2))
+
+
+def test_lambda_may_be_typed_as_files_have_it() -> None:
+    assert read_number("1 + 2 lam", ("lambda",)).value == read_number("1 + 2λ", ("lambda",)).value
+    assert read_number("1 + 2 eps", ("epsilon",)).value == read_number("1 + 2ε", ("epsilon",)).value
+
+
+@pytest.mark.parametrize("text", ["1 + 2e", "1 - e^2", "2/3*e"])
+def test_e_is_not_taken_for_the_number_where_it_may_be_epsilon(text: str) -> None:
+    with pytest.raises(Unreadable, match="'e' may be ε or the number e; write epsilon"):
+        read_number(text, ("epsilon",))
+    assert read_number(text, ("gamma",)).value
+
+
+@pytest.mark.parametrize("text", ["-[2 4]/8", "-1/8 [2 4]", "-[1/4 1/2]", "-(0.25, 0.5)", "[-2 -4]/8"])
+def test_a_sign_before_a_bracket_counts_for_every_entry(text: str) -> None:
+    assert [entry.value for entry in read_vector(text, 2)] == [fmpq(-1, 4), fmpq(-1, 2)]
+    assert [entry.value for entry in read_matrix(text, (1, 2))[0]] == [fmpq(-1, 4), fmpq(-1, 2)]
+
+
+MOMENTS = {"names": ("μ_1", "Σ_1"), "called": ("mean", "variance")}
+
+
+@pytest.mark.parametrize(
+    "text", ["μ = 5, σ² = 3", "sigma^2 = 3; mu = 5", "var 3, mean 5", "Σ=3 μ=5", "σ_1^2 = 3, μ_1 = 5"]
+)
+def test_the_square_of_a_deviation_is_a_variance(text: str) -> None:
+    assert [entry.value for entry in read_vector(text, 2, **MOMENTS)] == [5, 3]
+
+
+@pytest.mark.parametrize("text", ["mean 5, σ = 3", "μ = 5, sigma = 3", "σ = 3, mean = 5"])
+def test_a_deviation_is_no_variance(text: str) -> None:
+    with pytest.raises(Unreadable, match="is not asked for here"):
+        read_vector(text, 2, **MOMENTS)
+
+
+def test_a_line_has_a_slope_and_an_intercept() -> None:
+    told = {"names": ("θ̂_1", "θ̂_0"), "called": ("slope", "intercept")}
+    for text in ("intercept 3, slope 2", "slope = 2, intercept = 3", "θ_0 = 3, θ_1 = 2"):
+        assert [entry.value for entry in read_vector(text, 2, **told)] == [2, 3]
+
+
 @pytest.mark.parametrize("text", ["1 + 2 gamma", "[1 + 2 (gamma)]", "1 - 2 √2"])
 def test_a_space_in_a_product_is_not_taken_for_one_between_entries(text):
     assert (

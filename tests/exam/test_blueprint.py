@@ -60,6 +60,11 @@ def test_a_problem_file_is_no_blueprint() -> None:
             "line 1: points are given for 3 parts, and no problem",
         ),
         ("problems = [{id = 'return/1/7', count = 2}]", "exam.toml: id names one problem; leave level and count out."),
+        (
+            "problems = ['return', 'rbf']",
+            "line 1: a problem is not its name alone; write a line [[problems]], and below",
+        ),
+        ("points = '30'\n[[problems]]\nfamily = 'rbf'", "line 1: points: '30' is a text; write 30, without quotes."),
         ("problems = []", "there are no problems in it"),
         ("[problems]\nfamily = 'return'", "line 1: every problem begins with a line [[problems]], in two brackets."),
         ("[[problems]]\nfamily = 'return'\npoints = -3", "line 3: points: -3 is too small; it must be at least 1."),

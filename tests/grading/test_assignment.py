@@ -20,7 +20,7 @@ from rldrill.grading.marking import Rules
 from rldrill.grading.report import Report, StudentReport
 from rldrill.grading.reports import github, gradescope, junit, page, tables, text
 from rldrill.grading.verification import Settings, verify
-from rldrill.problems.errors import UsageError
+from rldrill.problems.errors import FileError, UsageError
 from rldrill.solutions.answers.judging import judge
 
 HEAD = "student,number,problem,part,answer\n"
@@ -152,6 +152,76 @@ def test_an_exam_for_people_knows_them(tmp_path: Path) -> None:
     assert [(each.student, each.version) for each in report.students] == [
         (version.person.name, version.code) for version in made.versions
     ]
+
+
+TWO = (Person("Ann Lee", "8"), Person("Ben Ali", "0009"))
+
+
+def test_a_number_alone_has_nobody_beside_it(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    (ann, _) = graded(tmp_path, [("", "8", "1", "a", "1")], Assignment(path)).students
+    assert ann.student == "Ann Lee"
+    assert ann.extra == ()
+    (ann, _) = graded(tmp_path, [("Bob", "8", "1", "a", "1")], Assignment(path)).students
+    assert "beside it stands 'Bob'" in ann.extra[0]
+
+
+@pytest.mark.parametrize(("known", "typed"), [("0009", "9"), ("9", "0009"), ("0009", "0009")])
+def test_the_zeros_before_a_number_may_be_lost(tmp_path: Path, known: str, typed: str) -> None:
+    path, _ = exam(tmp_path, roster=(Person("Ann Lee", "8"), Person("Ben Ali", known)))
+    (ben, _) = graded(tmp_path, [("", typed, "1", "a", "1")], Assignment(path)).students
+    assert ben.student == "Ben Ali"
+
+
+def test_of_two_of_one_name_the_number_must_be_known(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path, roster=(Person("Ann Lee", "8"), Person("Ann Lee", "9")))
+    says = [refusal.says for refusal in graded(tmp_path, [("Ann Lee", "7", "1", "a", "1")], Assignment(path)).refused]
+    assert says[0].endswith("called 'Ann Lee', and none of them has the number '7'; correct it.")
+    says = [refusal.says for refusal in graded(tmp_path, [("Ann Lee", "", "1", "a", "1")], Assignment(path)).refused]
+    assert says[0].endswith("called 'Ann Lee'; give the number.")
+
+
+def test_whoever_may_have_handed_in_is_not_said_to_have_handed_in_nothing(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    report = graded(tmp_path, [("Bob", "8", "1", "a", "1", "and more")], Assignment(path))  # one field too many
+    assert student(report, "Ann Lee").unread == "handed in, could not be read"
+    assert student(report, "Ben Ali").unread == ""
+    report = graded(tmp_path, [("Benjamin", "", "1", "a", "1")], Assignment(path))
+    assert "perhaps it is under one that is not on the roster" in student(report, "Ben Ali").unread
+
+
+def test_the_roster_that_an_exam_was_printed_from_will_do(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, roster=TWO)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("name,number\nBen Ali,0009\nAnn Lee,8\n", encoding="utf-8")
+    report = graded(tmp_path, [("", "8", "1", "a", "1"), ("", "9", "1", "a", "1")], Assignment(path, roster=roster))
+    codes = {version.person.name: version.code for version in made.versions}
+    assert {each.student: each.version for each in report.students} == codes
+    roster.write_text("name,number\nCid,1\n", encoding="utf-8")
+    with pytest.raises(FileError, match="line 2: the exam was not printed for them; add a version"):
+        Assignment(path, roster=roster)
+
+
+@pytest.mark.parametrize(
+    ("problem", "part"),
+    [("2", "a"), ("2.0", "a"), ("Problem 2", "A"), ("#2", "a"), ("2)", "a"), ("2a", ""), ("2 (a)", ""), ("2.a", ""),
+     ("Aufgabe 2a", ""), ("Q2", "a")],
+)  # fmt: skip
+def test_a_problem_may_be_named_as_people_do(tmp_path: Path, problem: str, part: str) -> None:
+    path, made = exam(tmp_path)
+    report = graded(tmp_path, [("Ann", "", problem, part, keys(made.versions[0])["2", "a"])], Assignment(path))
+    assert [part.judged.verdict for part in report.students[0].parts] == ["missing", "right", "missing"]
+
+
+@pytest.mark.parametrize("typed", ["'{}", "={}", '"{}"', "'{}'"])
+def test_what_a_spreadsheet_marks_as_text_is_read(tmp_path: Path, typed: str) -> None:
+    blueprint = Blueprint(problems=(Asked(id="return/1/430"),), seed=1)
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    path = tmp_path / "answers.csv"  # R₁ = −1 + 1/3 · 8 + 1/9 · 3 = 2
+    path.write_text(f"{HEAD}'t Hooft,,1,a,{typed.format('2')}\n", encoding="utf-8")
+    (student,) = verify([path], Settings(assignment=Assignment(tmp_path / "exam.json"))).students
+    assert student.student == "'t Hooft"
+    assert student.parts[0].judged.verdict == "right"
 
 
 @pytest.mark.parametrize(("which", "right", "points"), [

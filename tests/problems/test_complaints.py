@@ -41,7 +41,7 @@ def complaint(given: object) -> str:
     return sentence(refused.value, adapter.json_schema(), family="toy", tagged=False)
 
 
-LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
+LISTED = "the fields there are few, some, word, sign, size, open, kind, told, inner, inners, named"
 
 
 @pytest.mark.parametrize(
@@ -87,8 +87,9 @@ LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
         ({"sized": 1}, f"given.sized is not a field (did you mean size?); {LISTED}."),
         ({"Few": [1, 2]}, f"given.Few is not a field (did you mean few?); {LISTED}."),
         ({"qqqqq": 1}, f"given.qqqqq is not a field; {LISTED}."),
-        ({"inner": {"deep": 1}}, f"given.inner.deep is not a field (did you mean depth?); {LISTED}."),
-        ({"inners": [{"deep": 1}]}, f"given.inners[1].deep is not a field (did you mean depth?); {LISTED}."),
+        ({"inner": {"deep": 1}}, "given.inner.deep is not a field (did you mean depth?); the field there is depth."),
+        ({"inners": [{"deep": 1}]},
+         "given.inners[1].deep is not a field (did you mean depth?); the field there is depth."),
         ({"size": 0, "few": [1]}, "given.few: has 1 entry; it needs at least 2 entries (and 1 more fault)."),
         ({"size": 0, "few": [1], "sized": 1},
          f"given.sized is not a field (did you mean size?); {LISTED} (and 2 more faults)."),
@@ -111,6 +112,7 @@ def test_the_nearest_name() -> None:
     assert nearest("rewrads", ("rewards", "states")) == " (did you mean rewards?)"
     assert nearest("N", ("n", "a")) == " (did you mean n?)"
     assert nearest("zzz", ("rewards", "states")) == ""
+    assert nearest("ratio", ("action", "old")) == ""
 
 
 #: What no plain sentence holds.

@@ -110,8 +110,20 @@ def test_the_forms_of_a_model_are_told_apart() -> None:
 @pytest.mark.parametrize(
     ("name", "change", "says"),
     [
-        ("td-zero", {"gama": 1}, "given.gama is not a field (did you mean gamma?); rldrill.fields('td-zero')"),
-        ("td-zero", {"xyz": 1}, "given.xyz is not a field; rldrill.fields('td-zero') and 'rldrill fields td-zero'"),
+        ("td-zero", {"gama": 1}, "given.gama is not a field (did you mean gamma?); the fields there are"),
+        (
+            "td-zero",
+            {"xyz": 1},
+            "xyz is not a field; the fields there are known, trajectory, values, alpha, gamma, td_errors, transitions",
+        ),
+        ("q-learning", {"terminal": ["x"]}, "given.terminal is not a field (did you mean trajectory.terminal?); the"),
+        ("td-zero", {"rewards": [1]}, "given.rewards is not a field (did you mean trajectory.rewards?); the fields"),
+        ("value-iteration", {"transitions": []}, "given.transitions is not a field (did you mean mdp.transitions?)"),
+        (
+            "value-iteration",
+            {"mdp": {"xyz": 1}},
+            "given.mdp.xyz is not a field; rldrill.fields('value-iteration') and 'rldrill fields value-iteration' list",
+        ),
         ("value-iteration", {"mdp": {"gird": "..G"}}, "given.mdp.gird is not a field (did you mean grid?)"),
         (
             "value-iteration",

@@ -76,12 +76,12 @@ LQR = {"A": [[1, 1], [0, 1]], "B": [[0], [1]], "Q": [[1, 0], [0, 1]], "R": 1}
 @pytest.mark.parametrize(
     ("family", "changed", "said"),
     [
-        ("kalman-filter", {"A": [[1, 2]]}, "A is 1×2, but with a mean of 1 and 1 readings it must be 1×1"),
-        ("kalman-filter", {"mean": [[0, 1]]}, "mean is 1×2, but with a mean of 1 and 1 readings it must be 1×1"),
-        ("kalman-filter", {"B": [[1], [1]]}, "B is 2×1, but with a mean of 1 and 1 readings it must be 1×1"),
+        ("kalman-filter", {"A": [[1, 2]]}, "A is 1×2, but with a mean of 1 and 1 reading it must be 1×1"),
+        ("kalman-filter", {"mean": [[0, 1]]}, "mean is 1×2, but with a mean of 1 and 1 reading it must be 1×1"),
+        ("kalman-filter", {"B": [[1], [1]]}, "B is 2×1, but with a mean of 1 and 1 reading it must be 1×1"),
         ("kalman-filter", {"C": [[1], [2]]}, "sensor is 1×1, but with a mean of 1 and 2 readings it must be 2×2"),
         ("kalman-filter", {"steps": [{"u": [[2], [1]]}]}, "u is 2×1, but with 1 inputs it must be 1×1"),
-        ("kalman-filter", {"steps": [{"z": [[2], [1]]}]}, "z is 2×1, but with 1 readings it must be 1×1"),
+        ("kalman-filter", {"steps": [{"z": [[2], [1]]}]}, "z is 2×1, but with 1 reading it must be 1×1"),
         ("kalman-filter", {"sensor": 0}, "sensor must be positive definite"),
         ("kalman-filter", {"covariance": -1}, "covariance must be positive semidefinite"),
         ("kalman-filter", {"process": -1}, "process must be positive semidefinite"),
@@ -150,7 +150,7 @@ def test_rows_columns_and_numbers_as_texts(typed: str, rows: list[list[int]]) ->
     [
         ("[1 2; 3]", "row 2 has length 1, row 1 has 2"),
         ("[1 0,5; 0 1]", "'1 0' is not a number"),
-        ("eye(2)", "'eye(2)' is not a number"),
+        ("eye(2)", "'eye(2)' is not worked out here"),
     ],
 )
 def test_texts_that_are_no_matrix(typed: str, says: str) -> None:

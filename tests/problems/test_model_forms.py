@@ -129,7 +129,7 @@ def test_arrays_of_pymdptoolbox(R: Any, reward: int) -> None:
     [
         ({"P": FOREST}, "R, the array of rewards, is missing"),
         ({"P": FOREST, "R": [1, 2]}, r"R has the shape \(2,\), which does not fit P's \(2, 3, 3\)"),
-        ({"P": FOREST[0], "R": [1, 2, 3]}, r"P has the shape \(3, 3\); it must be \(A, S, S\)"),
+        ({"P": FOREST[0][:2], "R": [1, 2, 3]}, r"P has the shape \(2, 3\); it must be \(A, S, S\)"),
         ({"P": [[[1], [1, 2]]], "R": [1]}, "rows of different lengths"),
         ({"P": FOREST, "R": [1, 2, 3], "gamma": 1}, "'gamma' is not understood beside the arrays P and R"),
         ({"P": {"0": {"0": [[1, 0, 0]]}}}, "outcome 1 of 0 in 0 must be"),
@@ -189,6 +189,37 @@ def test_a_table_with_doubled_rows_and_ends() -> None:
     model = Model.model_validate(from_table(table))
     assert outcomes(model, "0", "0") == {"1": (Fraction(2, 3), Fraction(3, 2)), "2": (Fraction(1, 3), 1)}
     assert model.terminal == ("2",)
+
+
+def test_where_an_episode_may_also_go_on_it_ends_in_a_state_of_its_own() -> None:
+    """State 1 is entered while the episode goes on, and left by what ends it and earns 5; so does staying in 2."""
+    table = {0: {0: [(1.0, 1, 0.0, False)], 1: [(1.0, 3, 1.0, True)]}, 1: {0: [(1.0, 1, 5.0, True)]},
+             2: {0: [(0.5, 2, 4.0, True), (0.5, 2, 0.0, False)]}, 3: {0: [(1.0, 0, -1.0, False)]}}  # fmt: skip
+    model = Model.model_validate(from_table(table))
+    assert set(model.states) == {"0", "1", "2"}
+    assert outcomes(model, "1", "0") == {"over": (1, 5)}
+    assert outcomes(model, "2", "0") == {"over": (Fraction(1, 2), 4), "2": (Fraction(1, 2), 0)}
+    assert outcomes(model, "0", "1") == {"3": (1, 1)}
+    assert set(model.terminal) == {"3", "over"}
+
+
+def test_a_square_alone_is_a_process_without_actions() -> None:
+    for rewards in ([1, 0], [[1, 1], [0, 0]]):
+        model = Model.model_validate({"P": [[0.5, 0.5], [0, 1]], "R": rewards})
+        assert model == Model.model_validate({"transitions": [[0, 0, "1/2", 1], [0, 1, "1/2", 1], [1, 1, 1, 0]]})
+
+
+def test_a_grid_may_be_a_list_of_its_rows() -> None:
+    drawn = {"rewards": {"G": 1}, "ends": ["G", "H"]}
+    text = Model.model_validate({"grid": "SF\nHG"} | drawn)
+    assert Model.model_validate({"grid": ["SF", "HG"]} | drawn) == text
+    assert Model.model_validate({"grid": [["S", "F"], ["H", "G"]]} | drawn) == text
+
+
+def test_names_of_cells_that_mean_nothing_are_told() -> None:
+    told: list[str] = []
+    Model.model_validate({"grid": "SF\nHG", "rewards": {"G": 1}}, context=told.append)
+    assert told == ["took F and H, with no reward and no end, for free cells"]
 
 
 def test_gymnasiums_environments() -> None:

@@ -1,0 +1,107 @@
+"""What people write in problem files otherwise than models have it, where only one thing can be meant."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from rldrill.problems.exact import read_scalar
+from rldrill.problems.expressions import GREEK
+
+Schema = Mapping[str, Any]
+
+#: What fields are called elsewhere.
+ALSO = {
+    "discount": "gamma", "discount_factor": "gamma", "step_size": "alpha", "learning_rate": "alpha", "lambda": "lam",
+    "λ": "lam", "lambda_": "lam", "behavior": "behaviour", "centers": "centres", "discretization": "discretisation",
+} | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
+#: What stands between the entries of a list that is given as one text; such a text is none of its entries.
+_PARTED = re.compile(r"[\s,;]")
+#: What the schema of an entry has inside which something may have to be settled.
+_INNER = {"properties", "additionalProperties", "enum"}
+
+
+def settled(given: Any, schema: Schema) -> Any:
+    """Givens as the models have them: fields by their names, lists of one entry in brackets, words in their own case.
+
+    Args:
+        given: what a file holds.
+        schema: the JSON Schema of the givens.
+    """
+    return _settled(given, [schema], schema.get("$defs", {}))
+
+
+def _settled(value: Any, schemas: Sequence[Schema], parts: Mapping[str, Schema]) -> Any:
+    forms = [form for schema in schemas for form in _forms(schema, parts)]
+    if not forms:
+        return value
+    if all(form.get("type") == "array" for form in forms) and not isinstance(value, list | tuple):
+        value = [value] if _may_be_an_entry(value, _entries(forms, parts)) else value
+    if isinstance(value, dict):
+        return _table(value, forms, parts)
+    if isinstance(value, list):
+        return _list(value, _entries(forms, parts), parts)
+    words = [word for form in forms for word in form.get("enum", ()) if isinstance(word, str)]
+    if isinstance(value, str) and all("enum" in form for form in forms):
+        return next((word for word in words if word.lower() == value.lower()), value)
+    return value
+
+
+def _forms(schema: Schema, parts: Mapping[str, Schema]) -> Iterator[Schema]:
+    """What a value may be, other than nothing."""
+    if "$ref" in schema:
+        schema = parts[schema["$ref"].rpartition("/")[2]]
+    inner = [*schema.get("anyOf", ()), *schema.get("oneOf", ())]
+    for each in inner:
+        yield from _forms(each, parts)
+    if not inner and schema.get("type") != "null":
+        yield schema
+
+
+def _entries(forms: Sequence[Schema], parts: Mapping[str, Schema]) -> list[Schema]:
+    """What the entries of a list may be."""
+    return [entry for form in forms if isinstance(form.get("items"), dict) for entry in _forms(form["items"], parts)]
+
+
+def _may_be_an_entry(value: Any, entries: Sequence[Schema]) -> bool:
+    """Whether a value that is no list can be the one entry of a list; of a list of lists it could be half an entry."""
+    if isinstance(value, dict):
+        return bool(entries) and all("properties" in entry for entry in entries)
+    if isinstance(value, bool) or not isinstance(value, str | int | float) or _PARTED.search(str(value)):
+        return False
+    return bool(entries) and not any("properties" in entry or entry.get("type") == "array" for entry in entries)
+
+
+def _table(value: Mapping[str, Any], forms: Sequence[Schema], parts: Mapping[str, Schema]) -> dict[str, Any]:
+    fields = {name for form in forms for name in form.get("properties", ())}
+    found = {}
+    for key, inner in value.items():
+        meant = ALSO.get(str(key), key)
+        name = meant if meant in fields and meant not in value and key not in fields else key
+        known = [form.get("properties", {}).get(name, form.get("additionalProperties")) for form in forms]
+        found[name] = _settled(inner, [each for each in known if isinstance(each, dict)], parts)
+    return found
+
+
+def _list(value: list[Any], entries: Sequence[Schema], parts: Mapping[str, Schema]) -> list[Any]:
+    rows = [entry["prefixItems"] for entry in entries if "prefixItems" in entry]
+    if rows:
+        named = any(
+            isinstance(each, str) and not _is_number(each) for each in value
+        )  # numbers alone may be several rows
+        alone = named and len(value) in map(len, rows) and not any(isinstance(each, list | dict) for each in value)
+        return [value] if alone else value
+    deeper = any(_INNER & entry.keys() or _has_numbers(entry, parts) for entry in entries)
+    return [_settled(each, entries, parts) for each in value] if deeper else value
+
+
+def _is_number(text: str) -> bool:
+    try:
+        read_scalar(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _has_numbers(entry: Schema, parts: Mapping[str, Schema]) -> bool:
+    """Whether an entry is a list of numbers; a name alone may be one of those of a single list of names."""
+    return any("number" in inner.get("type", ()) for inner in _entries([entry], parts))

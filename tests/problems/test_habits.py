@@ -1,0 +1,91 @@
+"""What people write otherwise than models have it, and what only looks like it."""
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import rldrill
+from rldrill.problems.catalogue import family
+from rldrill.problems.errors import FileError
+
+RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "usual"),
+    [
+        # one entry without brackets
+        ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": 0}, {"asked": [0]}),
+        ("return-infinite", {"first": 2, "repeated": "7", "gamma": "1/2"}, {"first": [2], "repeated": [7]}),
+        ("rbf", {"position": 0.5, "centres": [0, 1], "sigma": 1}, {"position": [0.5], "centres": [[0], [1]]}),
+        ("td-zero", {"trajectory": RUN | {"terminal": "end"}, "values": {"a": 0, "b": 0}, "alpha": 1, "gamma": 1},
+         {"trajectory": RUN}),
+        ("feature-expectations", {"features": {"a": 1}, "trajectories": [["a"]], "gamma": 1}, {"features": {"a": [1]}}),
+        ("kalman-filter", {"mean": 0, "covariance": 1, "process": 0, "sensor": 1, "steps": {"z": 1}},
+         {"steps": [{"z": 1}]}),
+        # one row without the brackets of the list
+        ("bandit", {"pulls": ["a", 1], "arms": ["a", "b"]}, {"pulls": [["a", 1]]}),
+        # other names of fields
+        ("eligibility-trace", {"states": ["a"], "\N{GREEK SMALL LETTER GAMMA}": 1, "lambda": 1, "asked": [0]},
+         {"gamma": 1, "lam": 1}),
+        ("linear-value", {"theta": [1, 2], "actions": ["l", "r"], "bumps": {"position": 0, "centers": [0], "width": 1}},
+         {"bumps": {"position": [0], "centres": [[0]], "width": 1}}),
+        # by state and action, where it is by action and state
+        ("bayes-predict", {"belief": {"a": 1, "b": 0}, "actions": "go",
+                           "motion": {"a": {"go": {"b": "1/3", "a": "2/3"}}, "b": {"go": {"b": 1}}}},
+         {"actions": ["go"], "motion": {"go": {"a": {"b": "1/3", "a": "2/3"}, "b": {"b": 1}}}}),
+        ("value-from-action-values", {"values": {"s": {"l": 1, "r": 3}}, "policy": "random"}, {"policy": "uniform"}),
+        # columns
+        ("kalman-filter", {"mean": [1, 2], "covariance": [[1, 0], [0, 1]], "A": [[1, 1], [0, 1]], "B": [[0], [1]],
+                           "C": [[1, 0]], "process": [[0, 0], [0, 0]], "sensor": 1, "steps": [{"u": [3], "z": [4]}]},
+         {"mean": [[1], [2]], "steps": [{"u": 3, "z": 4}]}),
+        # words in another case
+        ("bic", {"criterion": "aic", "fitted": {"x": {"log_likelihood": -9, "k": 1},
+                                                "y": {"log_likelihood": -8, "k": 1}}}, {"criterion": "AIC"}),
+    ],
+)  # fmt: skip
+def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], usual: dict[str, Any]) -> None:
+    kept = {key: value for key, value in given.items() if key not in ("\N{GREEK SMALL LETTER GAMMA}", "lambda")}
+    assert family(name).read(given) == family(name).read(kept | usual)
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "says"),
+    [
+        # one trajectory, or three of one state each
+        ("feature-expectations", {"features": {"a": [1]}, "trajectories": ["a", "a", "a"], "gamma": 1},
+         "given.trajectories[1]: must be a list"),
+        ("eligibility-trace", {"states": "a b", "gamma": 1, "lam": 1, "asked": [0]}, "given.states: must be a list"),
+        ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "lambda": 1, "asked": [0]},
+         "given.lambda is not a field"),
+        ("rbf", {"position": [0, 1], "centres": [0, 1], "sigma": 1}, "given"),
+        # one task of curvature 1 and optimum 3, or two
+        ("maml-step", {"theta": 0, "alpha": 1, "beta": 1, "tasks": [1, 3]},
+         "given.tasks[1]: must be a list, with the entries of one task"),
+        ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": [0, 2]},
+         "given.asked[1]: must be a list of 2 entries, in brackets of its own (and "),
+        ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": 2},
+         "given.asked: must be a list, in which each entry is a list of 2."),
+        ("bic", {"criterion": "AICc", "fitted": {}}, "given.criterion: 'AICc' is not possible here"),
+    ],
+)  # fmt: skip
+def test_what_can_mean_two_things_is_refused(name: str, given: dict[str, Any], says: str) -> None:
+    with pytest.raises(FileError) as error:
+        family(name).read(given)
+    assert says in str(error.value)
+
+
+def test_the_problem_is_the_one_that_was_meant() -> None:
+    """(0.45)\N{SUPERSCRIPT TWO} + 1 for the state visited at 0 and 2, with γλ = 0.45; 0.45 for the one between."""
+    given = {"states": ["a", "b", "a"], "gamma": 0.9, "lambda": 0.5, "asked": 2}
+    assert rldrill.read({"family": "eligibility-trace", "given": given}).answers() == {
+        "a": {"a": Fraction(481, 400), "b": Fraction(9, 20)}
+    }
+
+
+def test_the_letters_of_a_state_may_have_their_index_without_a_sign() -> None:
+    """∂(−4x₁ + x₁x₂ + u₁) is −4 + x₂ = −2 by x₁, x₁ = 1 by x₂, and 1 by u₁."""
+    given = {"dynamics": {"x1": "x_2", "x₂": "-4 x1 + x₁*x2 + u1"}, "state": {"x_1": 1, "x2": 2}, "action": {"u1": 0}}
+    answers = rldrill.read({"family": "linearise", "given": given}).answers()
+    assert answers == {"a": ((0, 1), (-2, 1)), "b": ((0,), (1,))}
