@@ -5,6 +5,7 @@ _CALLED = {
     "added": "added for multiplied",
     "all-signs": "all signs turned",
     "another-quantity": "another quantity than the one asked for",
+    "another-line": "another line of the table",
     "answer-scaled": "all entries off by one factor",
     "answer-transposed": "rows and columns exchanged",
     "bracket": "a bracket in the wrong place",
@@ -37,6 +38,8 @@ _CALLED = {
     "kept": "the old value kept",
     "lost-term": "a term lost on the way",
     "minus-lost": "a minus lost",
+    "multiplied": "multiplied for divided",
+    "number-moved": "a number moved without its sign",
     "numerator": "a wrong numerator",
     "one-minus": "1 minus the answer",
     "one-off": "a number off by one",
@@ -68,6 +71,7 @@ _CALLED = {
     "transposed": "a transpose forgotten",
     "twice": "a term counted twice",
     "twin": "a quantity for its like",
+    "unknown-moved": "an unknown moved without its sign",
     "upside-down": "a fraction upside down",
 }
 

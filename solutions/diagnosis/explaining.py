@@ -14,8 +14,9 @@ from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.diagnosis.weighing import Weighing, room
 from rldrill.solutions.diagnosis.weights import ALIKE
 
-#: What is told is likelier than not. Then fewer than one number from nowhere in twenty is accused of something.
-ENOUGH = 0.5
+#: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number from
+#: nowhere in twenty is accused of something.
+ENOUGH, TOLD = 0.6, 0.4
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
@@ -47,7 +48,8 @@ def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[s
     shares = Weighing(outcomes, typed, found).shares()
     groups = [sorted(group, key=lambda one: (causes[one].mistake is None, -shares[one])) for group in distinct(causes)]
     told = likeliest(shares, groups)
-    if sum(share for share, _ in told) < ENOUGH or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
+    enough = sum(shares) >= ENOUGH and sum(share for share, _ in told) >= TOLD
+    if not enough or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
 
@@ -96,7 +98,7 @@ def _alike(one: Cause, two: Cause) -> bool:
     if one.application is not two.application and None not in (one.application, two.application):
         return False
     for zero, other in ((one, two), (two, one)):
-        if zero.kind == "elsewhere" and zero.other == 0 and other.kind.endswith("left-out"):
+        if zero.kind in ("elsewhere", "another-line") and zero.other == 0 and other.kind.endswith("left-out"):
             return True
     if one.mistake and two.mistake:
         return one.mistake.says == two.mistake.says
