@@ -14,8 +14,8 @@ from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.diagnosis.weighing import Weighing, room
 from rldrill.solutions.diagnosis.weights import ALIKE
 
-#: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number from
-#: nowhere in twenty is accused of something.
+#: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number
+#: from nowhere in twenty is accused of something.
 ENOUGH, TOLD = 0.6, 0.4
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
 SURE_ENOUGH = 4.0
