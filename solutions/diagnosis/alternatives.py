@@ -68,7 +68,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
                 edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
         if edit.once is not None:
-            for term, at in list(terms(edit.within, known))[:TERMS]:
+            for term, at in single(edit, known)[:TERMS]:
                 other = value_or_none(edit.once, {**known, **at})
                 if same_form(other, value):
                     in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
@@ -239,6 +239,12 @@ def terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tu
         return
     for term in found:
         yield term, {element(depth): item for depth, item in enumerate(term)}
+
+
+def single(edit: Edit, known: Mapping[str, Any]) -> list[tuple[tuple[Any, ...], dict[str, Any]]]:
+    """The terms of sums that an edit can be made in alone; where there is but one, it is made in the whole."""
+    every = list(terms(edit.within, known))
+    return every if len(every) > 1 or edit.kind in IN_ONE_TERM else []
 
 
 def is_sensible(edit: Edit) -> bool:

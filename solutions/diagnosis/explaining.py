@@ -16,7 +16,7 @@ from rldrill.solutions.diagnosis.weights import ALIKE
 
 #: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number
 #: from nowhere in twenty is accused of something.
-ENOUGH, TOLD = 0.6, 0.4
+ENOUGH, TOLD = 0.57, 0.4
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
@@ -95,7 +95,7 @@ def distinct(causes: Sequence[Cause]) -> list[list[int]]:
 
 
 def _alike(one: Cause, two: Cause) -> bool:
-    if one.application is not two.application and None not in (one.application, two.application):
+    if not _at_the_same_place(one, two):
         return False
     for zero, other in ((one, two), (two, one)):
         if zero.kind in ("elsewhere", "another-line") and zero.other == 0 and other.kind.endswith("left-out"):
@@ -105,6 +105,14 @@ def _alike(one: Cause, two: Cause) -> bool:
     if one.mistake or two.mistake:
         return _is_stated(one, two) or _is_stated(two, one)
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
+
+
+def _at_the_same_place(one: Cause, two: Cause) -> bool:
+    """Whether both may be the same application; all those of one quantity, where it was done every time."""
+    here, there = one.application, two.application
+    if here is there or here is None or there is None:
+        return True
+    return (one.always or two.always) and here.right == there.right and here.names == there.names
 
 
 def _is_stated(mistake: Cause, edit: Cause) -> bool:

@@ -51,6 +51,11 @@ class Application(Struct, frozen=True, eq=False):
         """The right side that was computed with."""
         return self.step.right
 
+    @property
+    def names(self) -> dict[str, str]:
+        """The letters that stand for a name, such as a state: they tell it from others of the same formula."""
+        return {letter: name for letter, name in self.known.items() if isinstance(name, str)}
+
     def old(self) -> Any:
         """What the quantity was worth before, where a table of its values is among what is known; else None."""
         left = self.formula.left

@@ -18,6 +18,7 @@ from rldrill.solutions.diagnosis.alternatives import (
     is_sensible,
     numbers,
     of_numbers,
+    single,
     terms,
 )
 from rldrill.solutions.diagnosis.causes import Candidate, Cause
@@ -228,7 +229,7 @@ class Search:
         """Edits at one quantity in every round: who misreads the row of a state does so in every sweep."""
         rows: dict[Expr, dict[Any, list[Application]]] = defaultdict(lambda: defaultdict(list))
         for application in self.applications:
-            if not application.equation and (letters := _names(application)):
+            if not application.equation and (letters := application.names):
                 rows[application.right][tuple(letters.values())].append(application)
         for same in rows.values():
             for every in same.values() if len(same) > 1 else ():
@@ -246,7 +247,7 @@ class Search:
                     yield from self._candidate(Cause(kind, weights.PROCEDURE[kind]), Change(equated={number: other}))
 
     def _in_equation(self, application: Application) -> Iterator[tuple[Cause, Expr, dict[str, Any]]]:
-        letters = _names(application)
+        letters = application.names
         case = {f"case_{name}": value for name, value in letters.items()}
         here = Indicator(*(sympy.Symbol(name) for letter in letters for name in (letter, f"case_{letter}")))
         right = application.right
@@ -257,7 +258,7 @@ class Search:
                 yield cause, Cases(here, edit.right, right), case
             if edit.once is not None:
                 once = Cases(here, edit.once, right)
-                for term, at in terms(edit.within, application.known):
+                for term, at in single(edit, application.known):
                     yield replace(cause, weight=weight * weights.IN_ONE_TERM, term=term), once, {**case, **at}
         for probe in probes(right):
             changed = Cases(here, probe.right, right)
@@ -304,11 +305,6 @@ class Search:
                 others = [(each, of_numbers(value, each)) for each in (*one_more, *checks)]
             self._responses[number] = [(each, self.replay(Change(values={number: other}))) for each, other in others]
         return self._responses[number]
-
-
-def _names(application: Application) -> dict[str, str]:
-    """What tells an application from others of the same formula: letters that stand for a name, such as a state."""
-    return {name: value for name, value in application.known.items() if isinstance(value, str)}
 
 
 def _nth(within: Sequence[Over], nth: int) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
