@@ -8,6 +8,7 @@ _CALLED = {
     "another-line": "another line of the table",
     "answer-scaled": "all entries off by one factor",
     "answer-transposed": "rows and columns exchanged",
+    "as-given": "what was given, for what comes of it",
     "bracket": "a bracket in the wrong place",
     "bracket-left-out": "a factor in brackets left out",
     "case": "the wrong case",

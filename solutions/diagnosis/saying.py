@@ -83,6 +83,7 @@ _INSIDE = {
     "tenfold": "the decimal point of {part} = {was} has slipped: {became}",
     "elsewhere": "{became} is put in for {part}, which is {was}",
     "stale": "{part} is put in as it was at the start, {became} for {was}",
+    "as-given": "you gave {part}, as it was before, not what comes of it",
     "another-line": "{line} = {became} is put in for {part} = {was}",
     "digits": "the digits of {part} = {was} are exchanged: {became}",
     "inverse": "{part} = {was} is upside down",
@@ -154,9 +155,10 @@ def _what(cause: Cause) -> Words:
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
         part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
+        was = _number(cause.was) if "{was}" in template else None
         became = _number(cause.other) if "{became}" in template else None
         line = typeset(_line(cause)) if "{line}" in template else None
-        return _filled(template, line=line, part=part, was=_number(cause.was), became=became)
+        return _filled(template, line=line, part=part, was=was, became=became)
     if cause.application is not None and cause.kind != "another-quantity":
         template = _VALUES.get(cause.kind, _VALUES[""])
         was, became = _changed(cause.was, cause.became)
@@ -227,7 +229,7 @@ def _number(value: Any) -> Any:
 
 
 def _where(cause: Cause, applications: Sequence[Application]) -> Words:
-    if cause.kind == "another-quantity" or (cause.application is None and cause.formula is None):
+    if cause.kind in ("another-quantity", "as-given") or (cause.application is None and cause.formula is None):
         return ()
     term = _term(cause)
     if cause.application is None:

@@ -120,6 +120,7 @@ HERE_ALONE = 0.5
 #: What happens between the working and the answer.
 ANSWERS = {
     "another-quantity": 3.0,
+    "as-given": 2.0,
     "exchanged-cells": 4.0,
     "all-signs": 9.0,
     "sign": 9.0,

@@ -397,6 +397,11 @@ with evaluate(False):
         "standard-deviation",
         "That is the standard deviation; the variance is its square.",
     )
+    SQUARES_NOT_DIVIDED = Misconception(
+        "squares-not-divided",
+        "A variance is a mean: the sum of the squared distances is divided by their number n, or by n − 1.",
+        when=lambda given: given.sample is not None,
+    )
     GAUSSIAN_VARIANCE = Formula(
         "gaussian-variance",
         sigma2_hat,
@@ -408,6 +413,7 @@ with evaluate(False):
         misread={
             N_MINUS_1_FOR_N: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
             STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1)),
+            SQUARES_NOT_DIVIDED: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)),
         },
     )
     N_FOR_N_MINUS_1 = Misconception(
@@ -426,6 +432,7 @@ with evaluate(False):
         misread={
             N_FOR_N_MINUS_1: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
             STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1)),
+            SQUARES_NOT_DIVIDED: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)),
         },
     )
     ONE_MEASUREMENT = Misconception(

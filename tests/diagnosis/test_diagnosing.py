@@ -157,6 +157,11 @@ def test_what_was_right_before_may_be_wrong_here_alone() -> None:
         assert exercise.diagnose("9/4", "b", earlier).sentence.startswith("Exploring picks among all |A| actions")
 
 
+def test_the_prior_for_the_posterior_is_told() -> None:
+    said = rldrill.load("bayes-rule/2/408328").diagnose("4/5, 1/5").sentence  # p(sound) = 4/5, p(cracked) = 1/5
+    assert said.startswith("It looks as if you gave p(h), as it was before, not what comes of it")
+
+
 def test_another_line_of_a_table_is_named() -> None:
     # Q(cool, slow) = 5 + 1/2·V(cool) = 7 with V(cool) = 4; with V(warm) = 2 it is 6.
     said = rldrill.load("policy-action-value/1/799772").diagnose("4, 6, 2, -2", "b").sentence
