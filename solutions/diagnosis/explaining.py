@@ -46,12 +46,17 @@ def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[s
         return Explained()
     causes = [each.cause for each in found]
     shares = Weighing(outcomes, typed, found).shares()
-    groups = [sorted(group, key=lambda one: (causes[one].mistake is None, -shares[one])) for group in distinct(causes)]
+    groups = [sorted(group, key=lambda one: (_standing(causes[one]), -shares[one])) for group in distinct(causes)]
     told = likeliest(shares, groups)
     enough = sum(shares) >= ENOUGH and sum(share for share, _ in told) >= TOLD
     if not enough or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
+
+
+def _standing(cause: Cause) -> int:
+    """Which of those that say the same stands for them: a mistake that is stated, and rather one made all along."""
+    return 2 if cause.mistake is None else int(cause.application is not None)
 
 
 def likeliest(shares: Sequence[float], groups: Sequence[Sequence[int]]) -> list[tuple[float, int]]:
