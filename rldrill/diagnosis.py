@@ -315,15 +315,24 @@ def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -
     looks = [_sentence(saying(cause, applications)) for cause in causes if cause.mistake is None]
     if looks and all(cause.application and cause.application.equation for cause in causes if cause.mistake is None):
         looks.append("there is a slip in solving the equations")
-    told = [cause.mistake.says for cause in causes if cause.mistake is not None]
+    told = [_stated(cause, applications) for cause in causes if cause.mistake is not None]
     if looks:
         told.insert(0 if causes[0].mistake is None else len(told), f"it looks as if {', or '.join(looks)}.")
     return " Or: ".join(told)
 
 
+def _stated(cause: Cause, applications: Sequence[Application]) -> str:
+    """What is said of a mistake, and where it was made, if it was made in one step alone of several."""
+    assert cause.mistake is not None
+    alike = [each for each in applications if each.formula is cause.formula]
+    if cause.application is None or len(alike) < 2:
+        return cause.mistake.says
+    return f"{cause.mistake.says} It seems to have gone wrong{_sentence(place(cause.application, applications))}."
+
+
 def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: float) -> Diagnosis:
     if cause.mistake is not None:
-        return Diagnosis("listed", cause.mistake.says, _place(cause), (), confidence)
+        return Diagnosis("listed", _stated(cause, applications), _place(cause), (), confidence)
     said = f"It looks as if {_sentence(saying(cause, applications))}."
     wrong, right = _compared(cause) or (None, None)
     return Diagnosis(cause.kind, said, _place(cause), (), confidence, wrong, right)

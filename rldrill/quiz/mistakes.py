@@ -5,8 +5,10 @@ _CALLED = {
     "added": "added for multiplied",
     "all-signs": "all signs turned",
     "another-quantity": "another quantity than the one asked for",
+    "another-line": "another line of the table",
     "answer-scaled": "all entries off by one factor",
     "answer-transposed": "rows and columns exchanged",
+    "as-given": "what was given, for what comes of it",
     "bracket": "a bracket in the wrong place",
     "bracket-left-out": "a factor in brackets left out",
     "case": "the wrong case",
@@ -37,6 +39,8 @@ _CALLED = {
     "kept": "the old value kept",
     "lost-term": "a term lost on the way",
     "minus-lost": "a minus lost",
+    "multiplied": "multiplied for divided",
+    "number-moved": "a number moved without its sign",
     "numerator": "a wrong numerator",
     "one-minus": "1 minus the answer",
     "one-off": "a number off by one",
@@ -68,6 +72,7 @@ _CALLED = {
     "transposed": "a transpose forgotten",
     "twice": "a term counted twice",
     "twin": "a quantity for its like",
+    "unknown-moved": "an unknown moved without its sign",
     "upside-down": "a fraction upside down",
 }
 

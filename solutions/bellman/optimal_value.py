@@ -55,7 +55,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         _optimal(given, work, evaluation)
 
 
-def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
+def _sought(given: Sought, work: Work, chosen: Chosen, *, kept: bool = False) -> None:
     """The other value, with which the maximum is what is known; the reward, with which it is that value."""
     mdp, state, row = given.mdp, given.state, given.row
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
@@ -66,7 +66,11 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     reward, worths = rewarded(work, Q_STAR_FROM_V, row, "V^*", V[row.state], V, demanding=certain, **known)
     work.answer(reward)
     rivals = [action for action in mdp.actions[row.state] if action != row.action]
-    start = {state: best, row.state: max(rivals, key=worths.__getitem__)}
+    rival = max(rivals, key=worths.__getitem__)
+    if kept:
+        work.answer(work.equate(str(row.reward), worths[row.action], worths[rival]))
+        return
+    start = {state: best, row.state: rival}
     work.answer(_least(given, work, known, {each: start[each] for each in mdp.states}))
 
 
@@ -228,13 +232,23 @@ def exceeds(given: Sought, work: Work) -> None:
     _sought(given, work, max)
 
 
+@slip(
+    "value-kept",
+    "With another reward the optimal values can be others: those found before belong to the reward that was found.",
+    when=lambda given: isinstance(given, Sought),
+)
+def value_kept(given: Sought, work: Work) -> None:
+    """The smallest reward with the optimal values of the other one."""
+    _sought(given, work, min, kept=True)
+
+
 def _at_random(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
     return evaluated(work, formula, mdp, {**known, "pi": knowns.policy(equiprobable(mdp))})
 
 
 _END_PAID = terminal_value(_optimal)
 MISCONCEPTIONS = (
-    most_paid, first_actions, at_random, exceeds, Q_FORGOT_GAMMA,
+    most_paid, first_actions, at_random, exceeds, value_kept.where_it_shows(), Q_FORGOT_GAMMA,
     replace(OPTIMAL_Q_BY_REWARD.where_it_shows(), when=lambda given: isinstance(given, Optimal)),
     replace(_END_PAID, when=lambda given: isinstance(given, Optimal) and _END_PAID.applies(given)),
     replace(OWN_VALUE, when=lambda given: isinstance(given, Optimal)),

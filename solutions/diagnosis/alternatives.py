@@ -29,6 +29,8 @@ _ELSEWHERE = 12
 TERMS = 8
 #: What is likely has at least this weight.
 LIKELY = 1.5
+#: A slip of arithmetic in a value that is read in a table is as likely as another line of it where it weighs so much.
+SURER = 1.0
 #: An edit of this weight says at one place better what was done than a mistake that is stated of the whole formula.
 PLAIN = 6.0
 
@@ -66,7 +68,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
                 edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
         if edit.once is not None:
-            for term, at in list(terms(edit.within, known))[:TERMS]:
+            for term, at in single(edit, known)[:TERMS]:
                 other = value_or_none(edit.once, {**known, **at})
                 if same_form(other, value):
                     in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
@@ -135,10 +137,22 @@ def at_place(application: Application, probe: Probe) -> Iterator[tuple[Cause, di
         was = value_or_none(probe.part, here)
         if not plain(was) and not isinstance(was, int):
             continue
-        for kind, other in _others(probe.part, was, here):
+        for kind, other in (*_from_the_start(application, probe.part, was, here), *_others(probe.part, was, here)):
             weight = weights.INSIDE[kind] * (weights.IN_ONE_TERM if len(every) > 1 else 1)
             cause = Cause(kind, weight, application, application.formula, probe=probe, term=term, was=was, other=other)
             yield cause, {**at, SCALE.name: fmpq(0), SHIFT.name: other}
+
+
+def _from_the_start(
+    application: Application, part: Expr, was: Any, known: Mapping[str, Any]
+) -> Iterator[tuple[str, Any]]:
+    """What a quantity of the table that is updated was worth before the first update."""
+    left, first = application.formula.left, application.first
+    if first is None or not isinstance(part, Quantity) or part.code != left.func.code:
+        return
+    other = value_or_none(part, {**known, part.code: first})
+    if plain(other) and str(other) != str(was):
+        yield "stale", other
 
 
 def _others(part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
@@ -149,17 +163,28 @@ def _others(part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[st
         return
     if part.is_Pow and is_rational(was) and 0 < was < 1 and was.q != 2:
         yield "complement", 1 - was
-    slipped = list(slips(was))
+    lines = _lines(part, known)
+    slipped = [(kind, other) for kind, other in slips(was) if weights.INSIDE[kind] >= SURER or str(other) not in lines]
     for kind, other in slipped:
         lost = kind == "sign" and leaf and is_rational(was) and was < 0
         yield "minus-lost" if lost else kind, other
     told = {str(other) for _, other in slipped} | {str(was)}
-    if isinstance(part, Quantity) and isinstance(known.get(part.code), Mapping):
-        elsewhere = _distinct(known[part.code].values())
-        if len(elsewhere) <= _ELSEWHERE:
-            yield from (("elsewhere", other) for other in elsewhere if str(other) not in told)
+    for said, (other, keys) in lines.items():
+        if said not in told:
+            yield "another-line" if len(keys) == 1 else "elsewhere", other
+    told |= set(lines)
     if leaf:
         yield from (("elsewhere", other) for other in _distinct(known.values()) if str(other) not in told)
+
+
+def _lines(part: Expr, known: Mapping[str, Any]) -> dict[str, tuple[Any, list[Any]]]:
+    """The values in the table that a quantity is read from, as they are written: each with the keys of its lines."""
+    table = known.get(part.code) if isinstance(part, Quantity) else None
+    lines: dict[str, tuple[Any, list[Any]]] = {}
+    for key, value in table.items() if isinstance(table, Mapping) else ():
+        if plain(value):
+            lines.setdefault(str(value), (value, []))[1].append(key)
+    return lines if len(lines) <= _ELSEWHERE else {}
 
 
 def likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple[str, float, Edit | None, Any]]:
@@ -214,6 +239,12 @@ def terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tu
         return
     for term in found:
         yield term, {element(depth): item for depth, item in enumerate(term)}
+
+
+def single(edit: Edit, known: Mapping[str, Any]) -> list[tuple[tuple[Any, ...], dict[str, Any]]]:
+    """The terms of sums that an edit can be made in alone; where there is but one, it is made in the whole."""
+    every = list(terms(edit.within, known))
+    return every if len(every) > 1 or edit.kind in IN_ONE_TERM else []
 
 
 def is_sensible(edit: Edit) -> bool:

@@ -52,8 +52,9 @@ def _of_rational(value: fmpq) -> Iterator[Slip]:
         yield "one-off", fmpq(-1)
         return
     yield "sign", -value
-    yield "tenfold", value * 10
-    yield "tenfold", value / 10
+    if _ends(bottom):  # nobody writes 16/3 with a decimal point
+        yield "tenfold", value * 10
+        yield "tenfold", value / 10
     yield "one-off", value + 1
     yield "one-off", value - 1
     if bottom != 1:
@@ -81,6 +82,14 @@ def _digits_swapped(number: int) -> Iterator[int]:
     for place in range(len(digits) - 1):
         if digits[place] != digits[place + 1] and (place or digits[1] != "0"):
             yield int(digits[:place] + digits[place + 1] + digits[place] + digits[place + 2 :])
+
+
+def _ends(bottom: int) -> bool:
+    """Whether the decimals of a fraction end."""
+    for factor in (2, 5):
+        while bottom % factor == 0:
+            bottom //= factor
+    return bottom == 1
 
 
 def _decimal(value: fmpq) -> tuple[int, int] | None:

@@ -29,6 +29,7 @@ class Cause(Struct, frozen=True, eq=False):
         mistake: the listed mistake that it is, if it is one.
         on_paper: whether it was done to the answer, behind the working.
         then: what was done besides.
+        always: whether it was done wherever the quantity of the application is worked out, in every sweep.
     """
 
     kind: str
@@ -46,6 +47,7 @@ class Cause(Struct, frozen=True, eq=False):
     mistake: Misconception | None = None
     on_paper: bool = False
     then: "Cause | None" = None
+    always: bool = False
 
 
 #: The answers that a cause leads to, for somebody who goes on from these answers to earlier parts.

@@ -14,8 +14,9 @@ from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.diagnosis.weighing import Weighing, room
 from rldrill.solutions.diagnosis.weights import ALIKE
 
-#: What is told is likelier than not. Then fewer than one number from nowhere in twenty is accused of something.
-ENOUGH = 0.5
+#: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number
+#: from nowhere in twenty is accused of something.
+ENOUGH, TOLD = 0.57, 0.4
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
@@ -45,11 +46,17 @@ def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[s
         return Explained()
     causes = [each.cause for each in found]
     shares = Weighing(outcomes, typed, found).shares()
-    groups = [sorted(group, key=lambda one: (causes[one].mistake is None, -shares[one])) for group in distinct(causes)]
+    groups = [sorted(group, key=lambda one: (_standing(causes[one]), -shares[one])) for group in distinct(causes)]
     told = likeliest(shares, groups)
-    if sum(share for share, _ in told) < ENOUGH or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
+    enough = sum(shares) >= ENOUGH and sum(share for share, _ in told) >= TOLD
+    if not enough or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
+
+
+def _standing(cause: Cause) -> int:
+    """Which of those that say the same stands for them: a mistake that is stated, and rather one made all along."""
+    return 2 if cause.mistake is None else int(cause.application is not None)
 
 
 def likeliest(shares: Sequence[float], groups: Sequence[Sequence[int]]) -> list[tuple[float, int]]:
@@ -93,16 +100,24 @@ def distinct(causes: Sequence[Cause]) -> list[list[int]]:
 
 
 def _alike(one: Cause, two: Cause) -> bool:
-    if one.application is not two.application and None not in (one.application, two.application):
+    if not _at_the_same_place(one, two):
         return False
     for zero, other in ((one, two), (two, one)):
-        if zero.kind == "elsewhere" and zero.other == 0 and other.kind.endswith("left-out"):
+        if zero.kind in ("elsewhere", "another-line") and zero.other == 0 and other.kind.endswith("left-out"):
             return True
     if one.mistake and two.mistake:
         return one.mistake.says == two.mistake.says
     if one.mistake or two.mistake:
         return _is_stated(one, two) or _is_stated(two, one)
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
+
+
+def _at_the_same_place(one: Cause, two: Cause) -> bool:
+    """Whether both may be the same application; all those of one quantity, where it was done every time."""
+    here, there = one.application, two.application
+    if here is there or here is None or there is None:
+        return True
+    return (one.always or two.always) and here.right == there.right and here.names == there.names
 
 
 def _is_stated(mistake: Cause, edit: Cause) -> bool:

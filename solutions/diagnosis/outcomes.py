@@ -13,8 +13,9 @@ from msgspec.structs import replace
 
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.judging import wrong_cells
+from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.alternatives import LIKELY, hashable, likely, numbers, plain
-from rldrill.solutions.diagnosis.causes import Again, Cause
+from rldrill.solutions.diagnosis.causes import Again, Candidate, Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
@@ -140,6 +141,7 @@ class Outcomes:
                 cells = self.cells_of(candidate.answers)
                 if cells is not None:
                     self._keep(candidate.cause, cells, again=candidate.again)
+                    self._here_alone(candidate, cells)
             self._taken = len(whole)
             while not clock.over and not self.finished:
                 self.finished = next(self._growth, True)
@@ -157,6 +159,16 @@ class Outcomes:
     def cells_of(self, answers: Mapping[str, Any] | None) -> Mapping[str, Any] | None:
         """The cells of this part among some answers; None where they have no such part, or another one."""
         return cells_of(self.part, self.key, answers)
+
+    def _here_alone(self, candidate: Candidate, cells: Mapping[str, Any]) -> None:
+        """The same done here alone, by somebody who had the right answers to the parts before."""
+        right = {label: value for label, value in self.search.solution.answers.items() if label < self.part.label}
+        if self.search.carried or all(candidate.answers.get(label) == value for label, value in right.items()):
+            return
+        alone = self.cells_of(candidate.again(right))
+        if alone is not None and alone != cells:
+            cause = replace(candidate.cause, weight=candidate.cause.weight * weights.HERE_ALONE)
+            self._keep(cause, alone, again=candidate.again)
 
     def _keep(
         self, cause: Cause, cells: Mapping[str, Any], change: Change | None = None, again: Again | None = None

@@ -51,6 +51,11 @@ class Application(Struct, frozen=True, eq=False):
         """The right side that was computed with."""
         return self.step.right
 
+    @property
+    def names(self) -> dict[str, str]:
+        """The letters that stand for a name, such as a state: they tell it from others of the same formula."""
+        return {letter: name for letter, name in self.known.items() if isinstance(name, str)}
+
     def old(self) -> Any:
         """What the quantity was worth before, where a table of its values is among what is known; else None."""
         left = self.formula.left
@@ -62,12 +67,22 @@ class Application(Struct, frozen=True, eq=False):
             return None
 
 
+class Equated(Struct, frozen=True):
+    """An equation that was solved for a letter, and the letter's value."""
+
+    letter: str
+    left: Any
+    right: Any
+    value: Any
+
+
 class Recorder(Work):
     """A solver's notebook that also takes down every application with what was known."""
 
     def __init__(self, carried: Mapping[str, Any]) -> None:
         super().__init__(carried=carried)
         self.applications: list[Application] = []
+        self.equated: list[Equated] = []
         self._first: dict[str, Mapping[Any, Any]] = {}
 
     def step(self, formula: Formula, **named: Any) -> Any:
@@ -86,6 +101,12 @@ class Recorder(Work):
             known = {**named, unknown.code: dict(solution), **case}
             self._take_down(start + place, solution[_key(case)], known, equation=True)
         return solution
+
+    def equate(self, letter: str, left: Any, right: Any) -> Any:
+        """As in any working."""
+        value = super().equate(letter, left, right)
+        self.equated.append(Equated(letter, left, right, value))
+        return value
 
     def _take_down(self, line: int, value: Any, known: Mapping[str, Any], *, equation: bool) -> None:
         step = self.lines[line]
@@ -113,12 +134,14 @@ class Change(Struct, frozen=True):
         values: for the numbers of applications, other values that come out.
         letters: what the exchanged right sides need besides; or what gives that for what is known.
         habit: what is done with what is known before every application.
+        equated: for the numbers of equations with one unknown, other values of it.
     """
 
     rights: Mapping[Expr, Expr] = field(default_factory=dict)
     values: Mapping[int, Any] = field(default_factory=dict)
     letters: Mapping[str, Any] | Callable[[Mapping[str, Any]], Mapping[str, Any]] = field(default_factory=dict)
     habit: Habit | None = None
+    equated: Mapping[int, Any] = field(default_factory=dict)
 
 
 #: An application in a changed working: its number, the right side, what was known, and its value.
@@ -144,7 +167,7 @@ class Replay(Work):
         self.before = before
         self.trace = trace
         self.limit = limit
-        self.number = 0
+        self.number = self.solved = 0
         self.found: dict[str, dict[Any, Any]] = {}
         self.first: dict[str, Any] = {}
         self._again: dict[Any, Any] = {}
@@ -206,6 +229,11 @@ class Replay(Work):
                 self.trace.append((self.number, formula.right, named, solution[_key(case)]))
             self.number += 1
         return solution
+
+    def equate(self, letter: str, left: Any, right: Any) -> Any:
+        """The unknown, as somebody gets it who errs in solving the equation."""
+        number, self.solved = self.solved, self.solved + 1
+        return self.change.equated[number] if number in self.change.equated else super().equate(letter, left, right)
 
     def _letters(self, known: Mapping[str, Any]) -> Mapping[str, Any]:
         letters = self.change.letters

@@ -12,7 +12,9 @@ from rldrill.solutions.diagnosis.givens import ORDINALS
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, flat
 from rldrill.solutions.formula.letters import GLYPHS
+from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.nodes.sets import Over
+from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.formula.putting_in import indexed
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
 from rldrill.solutions.matrices import is_matrix
@@ -80,6 +82,9 @@ _INSIDE = {
     "sign": "{part} = {was} has the wrong sign",
     "tenfold": "the decimal point of {part} = {was} has slipped: {became}",
     "elsewhere": "{became} is put in for {part}, which is {was}",
+    "stale": "{part} is put in as it was at the start, {became} for {was}",
+    "as-given": "you gave {part}, as it was before, not what comes of it",
+    "another-line": "{line} = {became} is put in for {part} = {was}",
     "digits": "the digits of {part} = {was} are exchanged: {became}",
     "inverse": "{part} = {was} is upside down",
     "complement": "{became}, 1 minus it, is put in for {part}, which is {was}",
@@ -111,6 +116,9 @@ _WHOLE = {
     "reversed": "the {what} are taken in the opposite order",
     "entry-left-out": "the {what} is left out",
     "entries-exchanged": "the order is wrong in {what}",
+    "number-moved": "a number has changed sides of the equation and kept its sign",
+    "unknown-moved": "the unknown has changed sides of the equation and kept its sign",
+    "multiplied": "it is multiplied by the number before the unknown instead of divided by it",
     "another-quantity": "you gave {left}, which is not what is asked for",
     "another-quantity…": "you gave {left}, …, which are not what is asked for",
     "exchanged-cells": "the answers for {what} are exchanged",
@@ -147,8 +155,10 @@ def _what(cause: Cause) -> Words:
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
         part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
+        was = _number(cause.was) if "{was}" in template else None
         became = _number(cause.other) if "{became}" in template else None
-        return _filled(template, part=part, was=_number(cause.was), became=became)
+        line = typeset(_line(cause)) if "{line}" in template else None
+        return _filled(template, line=line, part=part, was=was, became=became)
     if cause.application is not None and cause.kind != "another-quantity":
         template = _VALUES.get(cause.kind, _VALUES[""])
         was, became = _changed(cause.was, cause.became)
@@ -219,13 +229,15 @@ def _number(value: Any) -> Any:
 
 
 def _where(cause: Cause, applications: Sequence[Application]) -> Words:
-    if cause.kind == "another-quantity" or (cause.application is None and cause.formula is None):
+    if cause.kind in ("another-quantity", "as-given") or (cause.application is None and cause.formula is None):
         return ()
     term = _term(cause)
     if cause.application is None:
         assert cause.formula is not None
         updates = cause.formula.sign == "←"
         return (*term, " in every update" if updates else " every time")
+    if cause.always:
+        return (*term, " every time in ", typeset(indexed(cause.application.formula.left, cause.application.known)))
     return (*term, *place(cause.application, applications))
 
 
@@ -266,6 +278,16 @@ def _in_its_term(cause: Cause) -> Expr | None:
     known = {} if cause.application is None else cause.application.known
     named = indexed(cause.probe.part, {**known, **own})
     return None if named == cause.probe.part else named
+
+
+def _line(cause: Cause) -> Expr:
+    """The quantity of the line that was read instead of the right one."""
+    assert cause.application is not None
+    assert cause.probe is not None
+    part = cause.probe.part
+    assert isinstance(part, Quantity)
+    key = next(key for key, value in cause.application.known[part.code].items() if str(value) == str(cause.other))
+    return part.func(*map(put_in_name, key if isinstance(key, tuple) else (key,)))
 
 
 def _term(cause: Cause) -> Words:

@@ -18,6 +18,7 @@ from rldrill.solutions.diagnosis.alternatives import (
     is_sensible,
     numbers,
     of_numbers,
+    single,
     terms,
 )
 from rldrill.solutions.diagnosis.causes import Candidate, Cause
@@ -33,6 +34,7 @@ from rldrill.solutions.diagnosis.replay import (
     replayed,
     with_givens,
 )
+from rldrill.solutions.diagnosis.unknowns import missolved
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, edits, element, probes
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.nodes.sets import Over
@@ -98,6 +100,8 @@ class Search:
         yield from self._habits()
         yield from self._misread()
         yield from self._equations()
+        yield from self._same_rows()
+        yield from self._unknowns()
 
     def _mistaken(self, mistake: Misconception, settled: Mapping[str, Any]) -> Mapping[str, Any] | None:
         return self.solution.answers_with(mistake, {**self.carried, **settled})
@@ -221,9 +225,30 @@ class Search:
             for cause, right, letters in self._in_equation(application):
                 yield from self._candidate(cause, Change({application.right: right}, letters=letters))
 
+    def _same_rows(self) -> Iterator[Candidate]:
+        """Edits at one quantity in every round: who misreads the row of a state does so in every sweep."""
+        rows: dict[Expr, dict[Any, list[Application]]] = defaultdict(lambda: defaultdict(list))
+        for application in self.applications:
+            if not application.equation and (letters := application.names):
+                rows[application.right][tuple(letters.values())].append(application)
+        for same in rows.values():
+            for every in same.values() if len(same) > 1 else ():
+                if len(every) > 1:
+                    for cause, right, letters in self._in_equation(every[0]):
+                        yield from self._candidate(
+                            replace(cause, always=True), Change({every[0].right: right}, letters=letters)
+                        )
+
+    def _unknowns(self) -> Iterator[Candidate]:
+        """Slips in solving equations with one unknown."""
+        for number, equation in enumerate(self.work.equated):
+            for kind, other in missolved(equation):
+                if other != equation.value:
+                    yield from self._candidate(Cause(kind, weights.PROCEDURE[kind]), Change(equated={number: other}))
+
     def _in_equation(self, application: Application) -> Iterator[tuple[Cause, Expr, dict[str, Any]]]:
-        letters = [name for name, value in application.known.items() if isinstance(value, str)]
-        case = {f"case_{name}": application.known[name] for name in letters}
+        letters = application.names
+        case = {f"case_{name}": value for name, value in letters.items()}
         here = Indicator(*(sympy.Symbol(name) for letter in letters for name in (letter, f"case_{letter}")))
         right = application.right
         for edit in edits(right):
@@ -233,7 +258,7 @@ class Search:
                 yield cause, Cases(here, edit.right, right), case
             if edit.once is not None:
                 once = Cases(here, edit.once, right)
-                for term, at in terms(edit.within, application.known):
+                for term, at in single(edit, application.known):
                     yield replace(cause, weight=weight * weights.IN_ONE_TERM, term=term), once, {**case, **at}
         for probe in probes(right):
             changed = Cases(here, probe.right, right)

@@ -62,8 +62,8 @@ ALIKE = (
     {"halved", "doubled"},
     {"exchanged-cells", "rows-exchanged"},
     {"reversed", "entries-exchanged"},
-    {"twin", "elsewhere", "index"},
-    {"other-taken", "min-for-max", "elsewhere", "choice"},
+    {"twin", "elsewhere", "another-line", "index"},
+    {"other-taken", "min-for-max", "elsewhere", "another-line", "choice"},
 )
 #: How much less likely it is that somebody takes 1 − x for x where x is no share of 1.
 NO_SHARE = 0.05
@@ -91,6 +91,7 @@ VALUES = {
 #: Slips in a value that is put in, or found on the way.
 INSIDE = {
     "crosswise": 1.5, "complement": 1.0, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5,
+    "another-line": 2.0, "stale": 2.5,
     "digits": 0.6, "one-off": 0.5, "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4,
     "lost-term": 1.0, "term-sign": 1.0, "term-tenfold": 0.5,
 }  # fmt: skip
@@ -109,11 +110,17 @@ PROCEDURE = {
     "reversed": 1.5,
     "entry-left-out": 1.5,
     "entries-exchanged": 1.0,
+    "number-moved": 5.0,
+    "unknown-moved": 4.0,
+    "multiplied": 2.0,
 }
+#: How much less likely it is that somebody errs here alone who did the same rightly in a part before.
+HERE_ALONE = 0.5
 
 #: What happens between the working and the answer.
 ANSWERS = {
     "another-quantity": 3.0,
+    "as-given": 2.0,
     "exchanged-cells": 4.0,
     "all-signs": 9.0,
     "sign": 9.0,

@@ -14,7 +14,9 @@ from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.exact import is_rational
+from rldrill.solutions.formula.edits import Probe
 from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.notation import Quantity
 
 #: What was done, and the cells that come of it.
 WrittenDown = Iterator[tuple[Cause, Mapping[str, Any]]]
@@ -26,6 +28,7 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
         return
     if len(key) > 1:
         yield from _other_quantities(key, applications)
+        yield from _as_given(key, applications)
         for one, two in combinations(key, 2):
             yield _cause("exchanged-cells", f"{one} and {two}"), {**key, one: key[two], two: key[one]}
         yield _cause("all-signs"), {name: -value for name, value in key.items()}
@@ -69,6 +72,28 @@ def _other_quantities(key: Mapping[str, Any], applications: Sequence[Application
                     "another-quantity", weights.ANSWERS["another-quantity"], several[0], what="…", on_paper=True
                 )
                 yield cause, {name: each.value for name, each in zip(key, several, strict=True)}
+
+
+def _as_given(key: Mapping[str, Any], applications: Sequence[Application]) -> WrittenDown:
+    """A table with the same names that was put in: the prior for the posterior, the old values for the new ones."""
+    told = set()
+    for application in applications:
+        for quantity in sorted(application.right.atoms(Quantity), key=str):
+            table = application.known.get(quantity.code)
+            if quantity.code in told or not isinstance(table, Mapping):
+                continue
+            named = {_name(line): value for line, value in table.items()}
+            if all(name in named and plain(named[name]) for name in key):
+                told.add(quantity.code)
+                cause = Cause(
+                    "as-given", weights.ANSWERS["as-given"], application, probe=Probe(quantity, quantity), on_paper=True
+                )
+                yield cause, {name: named[name] for name in key}
+
+
+def _name(line: Any) -> str:
+    """What a cell of a line in a table is called."""
+    return f"({', '.join(map(str, line))})" if isinstance(line, tuple) else str(line)
 
 
 def _is_of(application: Application, name: str) -> bool:

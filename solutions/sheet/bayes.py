@@ -157,6 +157,9 @@ with evaluate(False):
         "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
         when=lambda given: not given.prior_found,
     )
+    MEASURED_TWICE = Misconception(
+        "measured-twice", "Every measurement counts once: those before are in the belief already."
+    )
     BAYES = Formula(
         "bayes",
         p(h, z),
@@ -169,6 +172,10 @@ with evaluate(False):
             NOT_NORMALISED: likelihood(z, h) * p(h),
             BASE_RATE_IGNORED: likelihood(z, h) / SumOver(likelihood(z, h1), h1, Hypotheses),
             LIKELIHOOD_FOR_POSTERIOR: likelihood(z, h),
+            MEASURED_TWICE: likelihood(z, h)
+            * likelihood(z, h)
+            * p(h)
+            / SumOver(likelihood(z, h1) * likelihood(z, h1) * p(h1), h1, Hypotheses),
         },
     )
 
@@ -233,6 +240,10 @@ with evaluate(False):
         misread={
             BELIEF_NOT_NORMALISED: likelihood(z, s) * p_bar(s),
             PREDICTION_IGNORED: likelihood(z, s) / SumOver(likelihood(z, s1), s1, States),
+            MEASURED_TWICE: likelihood(z, s)
+            * likelihood(z, s)
+            * p_bar(s)
+            / SumOver(likelihood(z, s1) * likelihood(z, s1) * p_bar(s1), s1, States),
         },
     )
     READING = Formula(
@@ -306,6 +317,10 @@ with evaluate(False):
         "Prediction and measurement do not count alike: go the share K of the way, not half of it.",
         when=_on_a_line,
     )
+    COMPARED_BEFORE_THE_MOTION = Misconception(
+        "compared-before-the-motion",
+        "The measurement is compared with the mean after the motion, which is predicted, not with that before it.",
+    )
     KALMAN_MEAN = Formula(
         "kalman-mean",
         mean(t),
@@ -317,6 +332,7 @@ with evaluate(False):
         misread={
             GAIN_ON_PREDICTION: read(t) + Kt(t) * (mean_bar(t) - read(t)),
             PREDICTION_AND_READING_ALIKE: Rational(1, 2) * (mean_bar(t) + read(t)),
+            COMPARED_BEFORE_THE_MOTION: mean_bar(t) + Kt(t) * (read(t) - Ci * mean(t - 1)),
         },
     )
     SHARE_TAKEN = Misconception(
@@ -381,6 +397,11 @@ with evaluate(False):
         "standard-deviation",
         "That is the standard deviation; the variance is its square.",
     )
+    SQUARES_NOT_DIVIDED = Misconception(
+        "squares-not-divided",
+        "A variance is a mean: the sum of the squared distances is divided by their number n, or by n − 1.",
+        when=lambda given: given.sample is not None,
+    )
     GAUSSIAN_VARIANCE = Formula(
         "gaussian-variance",
         sigma2_hat,
@@ -392,6 +413,7 @@ with evaluate(False):
         misread={
             N_MINUS_1_FOR_N: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
             STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1)),
+            SQUARES_NOT_DIVIDED: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)),
         },
     )
     N_FOR_N_MINUS_1 = Misconception(
@@ -410,6 +432,7 @@ with evaluate(False):
         misread={
             N_FOR_N_MINUS_1: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
             STANDARD_DEVIATION: sqrt(SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1)),
+            SQUARES_NOT_DIVIDED: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)),
         },
     )
     ONE_MEASUREMENT = Misconception(

@@ -81,6 +81,10 @@ with evaluate(False):
     DISCOUNTED_REWARD = Misconception(
         "gamma-on-reward", "γ discounts the value of the next state only, not the reward on the way there."
     )
+    OWN_VALUE_DISCOUNTED = Misconception(
+        "own-value-discounted",
+        "γ discounts the value of the next state, which is one step away, not that of the state that is left.",
+    )
     FORGOT_GAMMA = Misconception(
         "forgot-gamma", "The value of the next state is discounted by γ.", when=lambda given: given.gamma != 1
     )
@@ -88,6 +92,10 @@ with evaluate(False):
         "max-for-mean", "The value of a policy averages over its actions; only the optimal value takes the maximum."
     )
     TRANSPOSED = Misconception("transposed-model", "P is the probability to go from s to s′; it was read from s′ to s.")
+    CHANCES_TRANSPOSED = Misconception(
+        "chances-transposed",
+        "P is the probability to go from s to s′, the way that earns the reward; it was read from s′ to s.",
+    )
     BELLMAN_V = Formula(
         "bellman-v",
         Vpi(s),
@@ -106,6 +114,9 @@ with evaluate(False):
             ),
             TRANSPOSED: SumOver(
                 pi(a, s) * SumOver(P(s1, a, s) * (R(s1, a, s) + gamma * Vpi(s1)), s1, States), a, Actions(s)
+            ),
+            CHANCES_TRANSPOSED: SumOver(
+                pi(a, s) * SumOver(P(s1, a, s) * (R(s, a, s1) + gamma * Vpi(s1)), s1, States), a, Actions(s)
             ),
         },
     )

@@ -127,6 +127,10 @@ with evaluate(False):
             FEATURES_EARLY: SumOver(gamma ** (t + 1) * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
         },
     )
+    STATES_COUNTED = Misconception(
+        "states-counted",
+        "Each trajectory counts once, however long it is: divide by the number of trajectories, not by that of states.",
+    )
     FEATURES_ESTIMATED = Formula(
         "features-estimated",
         mu(j),
@@ -138,6 +142,9 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             FEATURES_SUMMED: SumOver(mu_along(j, run), run, Trajectories),
+            STATES_COUNTED: 1
+            / SumOver(Last(run) + 1, run, Trajectories)
+            * SumOver(mu_along(j, run), run, Trajectories),
         },
     )
     START_NOT_COUNTED = Misconception(

@@ -5,7 +5,7 @@ Weights, features and gradients are vectors; weights and features are also known
 
 from typing import Any
 
-from sympy import Pow, evaluate, exp, log
+from sympy import Integer, Pow, evaluate, exp, log
 
 from rldrill.problems.mathematics import (
     Accent,
@@ -62,6 +62,7 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 from rldrill.solutions.ratios import keeps_the_worse
+from rldrill.solutions.sheet.bellman import OWN_VALUE_DISCOUNTED
 
 _NABLA = Script(Glyph("∇", "variable"), variable("θ"))
 
@@ -311,6 +312,7 @@ with evaluate(False):
         hint="Reward plus the discounted value of the next state, minus the value of the state that is left.",
         misread={
             NEXT_VALUE_FORGOTTEN: r(t + 1) - V(S(t)),
+            OWN_VALUE_DISCOUNTED: r(t + 1) + V(S(t + 1)) - gamma * V(S(t)),
         },
     )
     CRITIC_WITHOUT_ALPHA = Misconception(
@@ -415,6 +417,11 @@ with evaluate(False):
         "Each further TD error gets a factor γλ, not λ alone.",
         when=lambda given: _has_later_errors(given) and given.gamma != 1,
     )
+    NEXT_ERROR_ALONE = Misconception(
+        "next-error-alone",
+        "The sum goes on to the end of the run: every later TD error counts, not the next one alone.",
+        when=lambda given: _has_later_errors(given) and len(given.run.trajectory.rewards) > 2,
+    )
     GAE = Formula(
         "gae",
         GAE_t(t),
@@ -427,6 +434,7 @@ with evaluate(False):
         misread={
             GAE_WITHOUT_LAMBDA: SumOver(gamma**i * delta(t + i), i, Counting(0, T - t - 1)),
             GAE_WITHOUT_GAMMA: SumOver(lam**i * delta(t + i), i, Counting(0, T - t - 1)),
+            NEXT_ERROR_ALONE: SumOver((gamma * lam) ** i * delta(t + i), i, Counting(0, Least(Integer(1), T - t - 1))),
         },
     )
 

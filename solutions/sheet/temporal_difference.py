@@ -35,7 +35,7 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OWN_VALUE_DISCOUNTED
 from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 
 #: The λ-return, TD errors, eligibility traces, the count of visits, the visits and the weights of their returns.
@@ -304,6 +304,7 @@ with evaluate(False):
             TARGET_ONLY: V(S(t)) + alpha * (r(t + 1) + gamma * V(S(t + 1))) - V(S(t)),
             WRONG_SIGN: V(S(t)) + alpha * (V(S(t)) - (r(t + 1) + gamma * V(S(t + 1)))),
             TARGET_FOR_VALUE: r(t + 1) + gamma * V(S(t + 1)),
+            OWN_VALUE_DISCOUNTED: V(S(t)) + alpha * (r(t + 1) + V(S(t + 1)) - gamma * V(S(t))),
         },
     )
 

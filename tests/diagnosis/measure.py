@@ -35,10 +35,10 @@ from rldrill.solutions.solution import Solution
 
 #: What may be said of an error, by the names of the program's causes.
 ACCEPTED_NAMES = {
-    "term_lost": "bracket-left-out case choice confused elsewhere factor-left-out index kept lost-term range "
-    "summand-left-out term-left-out twin",
-    "factor_lost": "bracket-left-out doubled elsewhere factor-left-out halved index inverse only-factor-left-out power "
-    "sign tenfold term-left-out",
+    "term_lost": "another-line bracket-left-out case choice confused elsewhere factor-left-out index kept lost-term "
+    "range summand-left-out term-left-out twin",
+    "factor_lost": "another-line bracket-left-out doubled elsewhere factor-left-out halved index inverse "
+    "only-factor-left-out power sign tenfold term-left-out",
     "sign_turned": "all-signs difference minus-lost sign summand-sign term-sign twice",
     "bracket_lost": "bracket factor-for-one",
     "bracket_widened": "bracket factor-for-all",
@@ -47,10 +47,10 @@ ACCEPTED_NAMES = {
     "power_as_product": "power-as-product",
     "square_forgotten": "factor-left-out index power squared squared-value",
     "factor_twice": "doubled halved index power squared squared-value",
-    "smallest_taken": "choice elsewhere min-for-max other-taken smallest",
+    "smallest_taken": "choice another-line elsewhere min-for-max other-taken smallest",
     "mean_taken": "mean-for-max",
     "all_added": "sum-for-max",
-    "first_taken": "case choice elsewhere min-for-max other-taken",
+    "first_taken": "case choice another-line elsewhere min-for-max other-taken",
     "complement_taken": "complement complement-of-value",
     "complement_forgotten": "complement complement-of-value confused exchanged",
     "inverse_forgotten": "divided factor-left-out inverse upside-down",
@@ -70,11 +70,11 @@ ACCEPTED_NAMES = {
     "value_halved": "doubled factor-left-out halved twice",
     "update_left_out": "factor-left-out kept term-left-out",
     "change_doubled": "change-doubled factor-left-out repeated twice",
-    "entries_exchanged": "elsewhere exchanged-cells rows-exchanged",
+    "entries_exchanged": "another-line elsewhere exchanged-cells rows-exchanged",
     "one_sign_lost": "difference minus-lost sign",
     "answer_sign": "all-signs difference minus-lost sign",
     "answer_upside_down": "inverse upside-down",
-    "another_quantity": "another-quantity",
+    "another_quantity": "another-quantity as-given",
     "answer_transposed": "answer-transposed transposed",
 }  # fmt: skip
 ACCEPTED = {kind: frozenset(names.split()) for kind, names in ACCEPTED_NAMES.items()}

@@ -117,16 +117,55 @@ CAR = {
 
 
 @pytest.mark.parametrize(
-    "typed",
+    ("typed", "where"),
     [
         # Rewards not weighted: (cool, fast) 7 + 9 + 1/2·(1/2·6 + 1/2·10) = 20, (hot, slow) 7 + 1 + 1/2·(3 + 5) = 12.
-        "(cool, fast): 20, (cool, slow): 14, (warm, slow): 6, (hot, fast): 10, (hot, slow): 12",
+        ("(cool, fast): 20, (cool, slow): 14, (warm, slow): 6, (hot, fast): 10, (hot, slow): 12", ""),
         # Only the first time; rightly (hot, slow) is 1/2·(7 + 1/2·6) + 1/2·(1 + 1/2·10) = 8.
-        "(cool, fast): 20, (cool, slow): 14, (warm, slow): 6, (hot, fast): 10, (hot, slow): 8",
+        (
+            "(cool, fast): 20, (cool, slow): 14, (warm, slow): 6, (hot, fast): 10, (hot, slow): 8",
+            " It seems to have gone wrong in Q^π(cool, fast).",
+        ),
     ],
 )
-def test_a_stated_mistake_is_known_made_everywhere_and_made_once(typed: str) -> None:
-    assert rldrill.read(CAR).diagnose(typed).sentence == Q_REWARD_UNWEIGHTED.says
+def test_a_stated_mistake_is_known_made_everywhere_and_made_once(typed: str, where: str) -> None:
+    assert rldrill.read(CAR).diagnose(typed).sentence == Q_REWARD_UNWEIGHTED.says + where
+
+
+SWEEPS = {
+    "family": "policy-evaluation",
+    "given": {
+        "mdp": {"transitions": [["a", "go", "b", 1, 1], ["b", "go", "a", 1, 3]], "terminal": []},
+        "policy": {"a": "go", "b": "go"},
+        "gamma": "1/4",
+        "start": {"a": 4, "b": 8},
+        "sweeps": 2,
+    },
+}
+
+
+def test_the_same_row_misread_in_every_sweep_is_told_once() -> None:
+    # Without γ in a alone: V₁(a) = 1 + 8 = 9, V₁(b) = 3 + 1/4·4 = 4, V₂(a) = 1 + 4 = 5, V₂(b) = 3 + 1/4·9 = 21/4.
+    said = rldrill.read(SWEEPS).diagnose("5, 21/4").sentence
+    assert said == "It looks as if γ is missing every time in Vₖ₊₁(a)."
+
+
+def test_what_was_right_before_may_be_wrong_here_alone() -> None:
+    # ε = 1/2 by 2/3 = 1 − ε + ε/3; then 1/2·4 + 1/4·(−2 + 3) = 9/4: exploration among the two other actions.
+    exercise = rldrill.load("epsilon-greedy/2/894006")
+    for earlier in ({}, {"a": "1/2"}):
+        assert exercise.diagnose("9/4", "b", earlier).sentence.startswith("Exploring picks among all |A| actions")
+
+
+def test_the_prior_for_the_posterior_is_told() -> None:
+    said = rldrill.load("bayes-rule/2/408328").diagnose("4/5, 1/5").sentence  # p(sound) = 4/5, p(cracked) = 1/5
+    assert said.startswith("It looks as if you gave p(h), as it was before, not what comes of it")
+
+
+def test_another_line_of_a_table_is_named() -> None:
+    # Q(cool, slow) = 5 + 1/2·V(cool) = 7 with V(cool) = 4; with V(warm) = 2 it is 6.
+    said = rldrill.load("policy-action-value/1/799772").diagnose("4, 6, 2, -2", "b").sentence
+    assert said.startswith("It looks as if V^π(warm) = 2 is put in for V^π(cool) = 4 in Q^π(cool, slow)")
 
 
 def test_a_matrix_in_the_place_of_another_is_told() -> None:
