@@ -160,9 +160,9 @@ def _questions(
     note = f"<p><em>{page_words(language).by_hand}</em></p>" if by_hand else ""
     yield _Question("text_only_question", title, writer.blocks(exercise.question()) + note)
     for part, every in asked:
+        working = writer.solved(exercise, part) if practice else ""  # its pictures are files of the package
         for question in _of_part(writer, exercise, part, every):
-            working = writer.solved(exercise, part)
-            yield replace(question, title=f"{title} {question.title}".strip(), working=working if practice else "")
+            yield replace(question, title=f"{title} {question.title}".strip(), working=working)
 
 
 def _of_part(writer: WithFiles, exercise: Exercise, part: Part, every: Sequence[Cell]) -> Iterator[_Question]:

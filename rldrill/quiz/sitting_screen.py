@@ -231,7 +231,8 @@ class SittingScreen:
         if self._plain:
             self._print(render(linear(exercise.question())))
             return
-        taken = sum(len(self._console.render_lines(line)) for line in _asked(exercise, exercise.parts[0]))
+        options = self._console.options.update(width=self._display.width)
+        taken = sum(len(self._console.render_lines(line, options)) for line in _asked(exercise, exercise.parts[0]))
         self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
         self._print()
 

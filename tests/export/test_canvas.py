@@ -91,6 +91,17 @@ def test_a_picture_is_a_file_of_its_quiz_and_no_resource_of_its_own() -> None:
     assert {str(PurePosixPath(source).parent) for source in sources} == {quizzes()[0][0].get("ident")}
 
 
+@pytest.mark.parametrize("practice", [True, False])
+def test_no_picture_is_in_the_package_that_no_text_shows(*, practice: bool) -> None:
+    """The bars of a belief that is asked for are the answer, even where only the package has them."""
+    exam = Exam(Head(), 1, (Version("A", (rldrill.load("bayes-filter/2/3"),), (0,)),))
+    with zipfile.ZipFile(io.BytesIO(canvas_exam(exam, practice=practice))) as files:
+        pictures = {name for name in files.namelist() if name.endswith(".svg")}
+        told = "".join(files.read(name).decode() for name in files.namelist() if name.endswith(".xml"))
+    shown = set(re.findall(r'&lt;img src="([^"]*)"', told))
+    assert pictures == shown
+
+
 def test_every_question_is_of_a_kind_that_canvas_knows() -> None:
     kinds = [kind(item) for item in items()]
     assert set(kinds) == {
