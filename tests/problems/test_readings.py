@@ -8,7 +8,7 @@ import rldrill
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import read_fraction
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.readings import distribution, meant, told
 
 
@@ -34,7 +34,7 @@ from rldrill.problems.readings import distribution, meant, told
     ],
 )
 def test_a_number(written: str | float, value: str) -> None:
-    assert meant(written, read_fraction(written), lambda _: None) == Fraction(value)
+    assert meant(written, read_fraction(written), lambda _: None) == fraction_of(value)
 
 
 @pytest.mark.parametrize(
@@ -50,8 +50,8 @@ def test_a_number(written: str | float, value: str) -> None:
     ],
 )
 def test_a_distribution(written: list[str], read: list[str]) -> None:
-    chances = {number: Fraction(text) for number, text in enumerate(written)}
-    assert list(distribution(chances, lambda _: None).values()) == [Fraction(text) for text in read]
+    chances = {number: fraction_of(text) for number, text in enumerate(written)}
+    assert list(distribution(chances, lambda _: None).values()) == [fraction_of(text) for text in read]
 
 
 THIRD, TWO_THIRDS = "0.3333333333333333", "0.6666666666666666"

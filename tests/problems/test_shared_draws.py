@@ -120,12 +120,13 @@ def test_a_policy_has_the_values_that_were_drawn(
 ) -> None:
     for rng, gamma in product(streams(15), (HALF, TWO_THIRDS)):
         shape = Shape(states=2, actions=3, branches=2, denominators=(2,))
-        model, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked=forked)
+        model, policy, values, worths = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked=forked)
         gone_through(model, {state: {action: Fraction(1)} for state, action in policy.items()}, values, gamma)
         assert len({*values.values()}) == 2
         assert all(value and whole(gamma * value) for value in values.values())
         for (state, action), rows in model.outcomes.items():
             worth = sum(row.probability * (row.reward + gamma * values.get(row.next, 0)) for row in rows)
+            assert worth == worths[state, action]
             surplus = worth - values[state]
             own = action == policy[state]
             assert surplus == 0 if own else surplus and others[0] <= surplus <= others[1]
