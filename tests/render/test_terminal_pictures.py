@@ -83,4 +83,4 @@ def test_a_run_that_fits_is_not_torn_by_the_room_behind_its_last_action() -> Non
 
 
 def test_words_beyond_the_end_of_a_row_stand_where_they_belong() -> None:
-    assert _row([1, 0], {5: "x₀"}) == "⠁    x₀"
+    assert _row({0: 1}, {5: "x₀"}) == "⠁    x₀"

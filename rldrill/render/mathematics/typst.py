@@ -178,7 +178,7 @@ def _optional(math: Math | None) -> str:
 
 def typst_fence(sign: str) -> str:
     """A bracket as the inside of ``lr``."""
-    return _FENCES[sign] if sign in _FENCES else _character(sign[:1])
+    return _FENCES[sign] if sign in _FENCES else _character(sign)
 
 
 # Rows

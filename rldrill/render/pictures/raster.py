@@ -1,6 +1,7 @@
 """Scenes as Braille signs, two dots across and four down in each, with their labels written over them."""
 
-from collections.abc import Callable
+from collections import defaultdict
+from collections.abc import Callable, Mapping
 from math import ceil, hypot
 
 from rldrill.render.mathematics.unicode import inline
@@ -14,8 +15,8 @@ _BITS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 def raster(scene: Scene) -> list[str]:
     """A scene without curves as lines of text."""
     box = scene.box
-    wide, high = ceil((box.right - box.left) / _DOT / 2) + 1, ceil((box.bottom - box.top) / _DOT / 4) + 1
-    dots = [[0] * wide for _ in range(high)]
+    high = ceil((box.bottom - box.top) / _DOT / 4) + 1
+    dots = [defaultdict[int, int](int) for _ in range(high)]
     texts: dict[tuple[int, int], str] = {}
 
     def mark(point: Point) -> None:
@@ -45,8 +46,8 @@ def raster(scene: Scene) -> list[str]:
     return lines
 
 
-def _row(cells: list[int], texts: dict[int, str]) -> str:
-    line = [chr(0x2800 + cell) if cell else " " for cell in cells]
+def _row(cells: Mapping[int, int], texts: Mapping[int, str]) -> str:
+    line = [chr(0x2800 + cells[at]) if at in cells else " " for at in range(max(cells, default=-1) + 1)]
     for at, text in texts.items():
         line += " " * (at + len(text) - len(line))
         line[at : at + len(text)] = text
