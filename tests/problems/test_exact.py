@@ -14,7 +14,7 @@ from rldrill.problems.exact import (
     read_width,
     shown,
 )
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 
 
 @pytest.mark.parametrize(
@@ -90,3 +90,15 @@ def test_products_and_quotients_of_roots_are_one_root(text: str, square: str) ->
 
 def test_a_root_that_comes_out_is_a_number() -> None:
     assert [read_width(text) for text in ("sqrt(8)/sqrt(2)", "sqrt(2)*sqrt(8)", "sqrt(9/4)")] == [2, 4, Fraction(3, 2)]
+
+
+@pytest.mark.parametrize(("text", "number"), [("7", 7), ("-7", -7), ("7/2", Fraction(7, 2)), ("0.5", Fraction(1, 2))])
+def test_a_text_is_read_and_the_zero_byte_stays_one(text: str, number: Fraction) -> None:
+    assert fraction_of(text) == number
+    assert bytes([0])[0] == 0
+
+
+@pytest.mark.parametrize("text", ["", "x", "²", "½", " ", "1/2/3"])
+def test_a_text_that_is_no_number_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=r"."):
+        fraction_of(text)
