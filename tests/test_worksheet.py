@@ -500,6 +500,14 @@ def test_a_json_file_that_is_no_manifest_is_not_overwritten(tmp_path: Path) -> N
     assert [path.name for path in tmp_path.iterdir()] == ["x.json"]
 
 
+def test_families_may_be_named_with_a_level(tmp_path: Path) -> None:
+    run("bayes-filter/1", "td-zero", "optimal-value/3", "-n", "3", "-o", tmp_path / "x.json")
+    (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
+    ids = [problem["id"].split("/") for problem in version["problems"]]
+    assert [(family, level) for family, level, _ in ids[:2]] == [("bayes-filter", "1"), ("optimal-value", "3")]
+    assert [family for family, _, _ in ids[2:]] == ["td-zero"]
+
+
 def test_a_problem_that_is_named_twice_is_printed_once(tmp_path: Path) -> None:
     run("td-zero/1/62590", "td-zero/1/62590", "-o", tmp_path / "x.json")
     (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]

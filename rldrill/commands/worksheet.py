@@ -11,7 +11,7 @@ from rldrill.commands.arguments import Json, Level, NotationOption, Seed, comple
 from rldrill.exam.choices import Paper, Solutions, Space
 
 if TYPE_CHECKING:
-    from rldrill.exam.blueprint import Blueprint
+    from rldrill.exam.blueprint import Blueprint, Entry
     from rldrill.exam.exam import Exam, Layout
     from rldrill.exam.fairness import Fairness
     from rldrill.exam.sealing import Secret
@@ -28,7 +28,8 @@ def command(
         typer.Argument(
             metavar="TOPIC|FAMILY|ID|FILE",
             autocompletion=complete,
-            help="Topics, families, problem IDs, problem files; or one blueprint (.toml). All topics, if none.",
+            help="Topics, families (or td-zero/2: one problem of a level), problem IDs, problem files; or one "
+            "blueprint (.toml). All topics, if none.",
         ),
     ] = None,
     count: Annotated[
@@ -217,7 +218,6 @@ def _blueprint(
     from rldrill.exam.blueprint import Blueprint, Entry, is_blueprint, read_blueprint
     from rldrill.files import read_data
     from rldrill.problems.errors import UsageError
-    from rldrill.problems.identity import looks_like_id
 
     paths = [name for name in names if Path(name).suffix.lower() in (".toml", ".json")]
     plans = [name for name in paths if name.lower().endswith(".toml") and is_blueprint(read_data(name))]
@@ -225,18 +225,25 @@ def _blueprint(
         if len(names) > 1 or count or level:
             raise UsageError(f"{plans[0]} is a blueprint, which names the problems itself; leave the other names out.")
         return read_blueprint(plans[0]).but(minutes=minutes), Path(plans[0]).stem, True
-    fixed = [Entry(id=name) if looks_like_id(name) else Entry(file=name) for name in names if _is_problem(name)]
-    rest = tuple(name for name in names if not _is_problem(name))
+    entries = {name: entry for name in names if (entry := _entry(name))}
+    fixed, rest = [*entries.values()], tuple(name for name in names if name not in entries)
     if rest or not fixed:
         wanted = None if minutes and count is None else max(1, (count or _PROBLEMS) - len(fixed))
         fixed.append(Entry(topic=rest, count=wanted, level=level))
     return Blueprint(problems=tuple(fixed), minutes=minutes), "worksheet", False
 
 
-def _is_problem(name: str) -> bool:
+def _entry(name: str) -> "Entry | None":
+    """The problem that is named by its ID or file, or by its family and level; None for what is chosen from."""
+    from rldrill.exam.blueprint import Entry
     from rldrill.problems.identity import looks_like_id
 
-    return looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")
+    if looks_like_id(name):
+        return Entry(id=name)
+    if Path(name).suffix.lower() in (".toml", ".json"):
+        return Entry(file=name)
+    family, _, level = name.partition("/")
+    return Entry(family=family, level=int(level)) if level in {"1", "2", "3"} else None
 
 
 def _printed(
