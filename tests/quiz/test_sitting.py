@@ -1,5 +1,6 @@
 """Sitting an exam: back and forth, nothing judged before the end, and the same points as verify gives."""
 
+import tomllib
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
@@ -296,3 +297,16 @@ def test_a_file_that_was_spoilt_meanwhile_costs_no_answer(sitting: Sitting) -> N
     again = Sitting(sitting.exam, sitting.version, sitting.path, START)
     again.resume()
     assert again.answers == {Place(0, 0): "1", Place(0, 1): "2"}
+
+
+def test_a_problem_of_ones_own_is_called_by_its_number(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text('family = "return"\n[given]\nrewards = [4, 6]\ngamma = "1/2"\ntime = 0\n')  # 4 + 1/2·6 = 7
+    planned = plan(Blueprint(problems=(PROBLEMS[0], Entry(file=str(own))), seed=1))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
+    sit(sitting, "go 2", "7", "leave")
+    kept = tomllib.loads(sitting.path.read_text(encoding="utf-8"))
+    assert kept["2"] == {"a": "7"}
+    again = Sitting(planned, planned.versions[0], sitting.path, START)
+    again.resume()
+    assert list(again.answers.values()) == ["7"]
