@@ -161,7 +161,7 @@ def _sign(char: str) -> str:
         if char in signs:
             return mark + signs[char]
     if _GREEK.fullmatch(char):
-        letter = name(char).rsplit(" ", 1)[-1].lower().replace("lamda", "lambda")
+        letter = name(char).split()[-1].lower().replace("lamda", "lambda")
         return letter if char.islower() else letter.capitalize()
     compatible = normalize("NFKC", char).replace("\u2044", "/")
     if compatible != char and compatible.isascii() and not char.isalpha():

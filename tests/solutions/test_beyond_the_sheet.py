@@ -147,3 +147,13 @@ def test_the_velocities_of_two_joints_by_hand() -> None:
 def test_no_joint_velocities_are_found_where_the_arm_is_stretched_out() -> None:
     with pytest.raises(FileError, match="the configuration is singular"):
         solved("jacobian", lengths=[1, 2], angles=["pi/6", 0], velocity=[1, 1])
+
+
+@pytest.mark.parametrize(
+    ("base", "seen"), [(None, "base"), ([[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "world")]
+)
+def test_poses_are_told_in_the_frame_of_the_world_where_the_base_has_a_place_in_it(base: Any, seen: str) -> None:
+    link = {"theta": "pi/2", "d": 0, "a": 1, "alpha": 0}
+    given = {"links": [link, link], "frames": True} | ({"base": base} if base else {})
+    asked = rldrill.read({"family": "denavit-hartenberg", "given": given}).parts[-1].ask
+    assert asked.endswith(f"of the frame of link $2$ to those of the {seen}?")

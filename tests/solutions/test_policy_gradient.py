@@ -197,6 +197,14 @@ def test_gae_is_the_td_error_for_lambda_0_and_monte_carlo_for_lambda_1(
     assert whole == tuple(G - value for G, value in zip(returns, (V[0], V[1], V[0]), strict=True))
 
 
+@pytest.mark.parametrize("level", [1, 2])
+def test_two_actions_that_are_compared_are_never_worth_the_same(level: int) -> None:
+    for seed in range(150):
+        exercise = rldrill.draw("advantage", level, seed)
+        for values in exercise.answers()["a"].values():
+            assert len(set(values.values())) == len(values), exercise.id
+
+
 @given(st.integers(0, 10_000))
 @settings(deadline=None, max_examples=25)
 def test_advantages_are_zero_on_average(seed: int) -> None:
