@@ -15,8 +15,8 @@ def _yardstick() -> float:
 
 
 @contextmanager
-def at_once(what: object = "", *, yardsticks: float = 100) -> Iterator[None]:
-    """Assert that what is done within takes no more processor time than so many yardsticks, half a second or so.
+def at_once(what: object = "", *, yardsticks: float = 200) -> Iterator[None]:
+    """Assert that what is done within takes no more processor time than so many yardsticks, a second or so.
 
     The collector of garbage rests meanwhile: among the objects of ten thousand tests one round of it takes longer.
     """
