@@ -46,7 +46,7 @@ def test_every_key(terminal: Terminal) -> None:
 
 @pytest.mark.parametrize("terminal", [60], indirect=True)
 def test_ctrl_d_sums_up(terminal: Terminal) -> None:
-    terminal.types("1, 2", "(a) > ")
+    terminal.types("1, 2", "✗", "(a) > ")
     terminal.child.sendeof()
     terminal.sees("0 of 2 parts right")
     terminal.child.sendeof()
