@@ -167,6 +167,15 @@ def read_scalar(value: object) -> Scalar:
     return _fraction(value)
 
 
+def is_scalar(value: object) -> bool:
+    """Whether something can be read as an exact number, or as a parameter left open."""
+    try:
+        read_scalar(value)
+    except ValueError:
+        return False
+    return True
+
+
 def read_weight(value: object) -> Weight:
     """Read an exact number, a parameter left open, or the logarithm of a whole number or parameter: ``ln 2``."""
     if isinstance(value, str):

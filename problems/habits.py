@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from rldrill.problems.exact import read_scalar
+from rldrill.problems.exact import is_scalar
 from rldrill.problems.expressions import GREEK
 
 Schema = Mapping[str, Any]
@@ -85,21 +85,12 @@ def _table(value: Mapping[str, Any], forms: Sequence[Schema], parts: Mapping[str
 def _list(value: list[Any], entries: Sequence[Schema], parts: Mapping[str, Schema]) -> list[Any]:
     rows = [entry["prefixItems"] for entry in entries if "prefixItems" in entry]
     if rows:
-        named = any(
-            isinstance(each, str) and not _is_number(each) for each in value
-        )  # numbers alone may be several rows
+        # Numbers alone may be several rows.
+        named = any(isinstance(each, str) and not is_scalar(each) for each in value)
         alone = named and len(value) in map(len, rows) and not any(isinstance(each, list | dict) for each in value)
         return [value] if alone else value
     deeper = any(_INNER & entry.keys() or _has_numbers(entry, parts) for entry in entries)
     return [_settled(each, entries, parts) for each in value] if deeper else value
-
-
-def _is_number(text: str) -> bool:
-    try:
-        read_scalar(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _has_numbers(entry: Schema, parts: Mapping[str, Schema]) -> bool:

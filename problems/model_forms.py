@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from rldrill.problems import arrays, gymnasium
-from rldrill.problems.exact import read_scalar
+from rldrill.problems.exact import is_scalar, read_scalar
 from rldrill.problems.grids import read_grid
 from rldrill.problems.readings import Note
 from rldrill.problems.transition_tables import ALONE, read_markdown_table, read_records, read_transition_table
@@ -126,7 +126,7 @@ def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
         return given
     states = {str(row[0]) for row in rows if isinstance(row, list) and row} | {*map(str, data.get("terminal", ()))}
     for number, row in enumerate(rows, 1):
-        if not isinstance(row, list) or len(row) != 4 or not _is_number(row[2]) or str(row[1]) not in states:
+        if not isinstance(row, list) or len(row) != 4 or not is_scalar(row[2]) or str(row[1]) not in states:
             raise ValueError(
                 f"transitions[{number}]: write {_ROW}; or [state, next, probability, reward] in every row of a "
                 "process without actions, whose ends are listed as terminal"
@@ -142,14 +142,6 @@ def _read_table(rows: Any) -> dict[str, Any]:
         return read_markdown_table(rows) if rows.lstrip().startswith("|") else read_transition_table(rows.strip("\n"))
     except ValueError as error:
         raise ValueError(f"transitions: {error}") from None
-
-
-def _is_number(value: object) -> bool:
-    try:
-        read_scalar(value)
-    except ValueError:
-        return False
-    return True
 
 
 def _read_rewards(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -189,7 +181,7 @@ def _read_rewards(data: Mapping[str, Any]) -> dict[str, Any]:
 
 def _beside_rewards(row: object, number: int) -> list[Any]:
     match row:
-        case [state, after, chance] if _is_number(chance):
+        case [state, after, chance] if is_scalar(chance):
             return [state, ALONE, after, chance]
         case [_, _, _, _]:
             return list(row)
