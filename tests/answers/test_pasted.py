@@ -298,6 +298,14 @@ def test_a_row_of_another_length_is_named():
 def test_all_states_by_their_numbers():
     # FrozenLake's first cells: 1 and 3 are terminal and stand between the others.
     assert [r.value for r in read_table("[7. 0. 5. 0. 4.]", ["0", "2", "4"], (), ["1", "3"]).values()] == [7, 5, 4]
+    # A state that is worth nothing, too, leaves no doubt: the numbers say which of the zeros is whose.
+    assert [r.value for r in read_table("[0. 0. 5. 0. 4.]", ["0", "2", "4"], (), ["1", "3"]).values()] == [0, 5, 4]
+    # 2 comes before 10, whatever the letters say.
+    assert {k: r.value for k, r in read_table("0 5 6 0", ["10", "2", "9"], (), ["1"]).items()} == {
+        "2": 5,
+        "9": 6,
+        "10": 0,
+    }
 
 
 @pytest.mark.parametrize(
