@@ -15,6 +15,7 @@ from rldrill.print.paper import png_of_svg
 from rldrill.problems.errors import UsageError
 from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.markdown import markdown, markdown_plain
+from rldrill.render.mathematics.spacing import parted
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
 
@@ -39,7 +40,8 @@ def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
         )
     with TemporaryDirectory() as folder:
         drawn = partial(_drawn, Path(folder))
-        source = markdown_exam(exam, version, practice=practice, answers=BELOW, written=partial(markdown, drawn=drawn))
+        written = partial(markdown, drawn=drawn)
+        source = _together(markdown_exam(exam, version, practice=practice, answers=BELOW, written=written))
         path = Path(folder) / "exam.docx"
         # The first heading becomes the title, as Word knows it, and those of the problems the first of all.
         told = ["--shift-heading-level-by=-1", f"--metadata=lang:{exam.head.language}"]
@@ -60,6 +62,11 @@ def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
             said = done.stderr.decode(errors="replace").strip().partition("\n")[0][:200]
             raise UsageError(f"pandoc refuses the text ({said}); a newer release of it may not.")
         return path.read_bytes()
+
+
+def _together(text: str) -> str:
+    """The text with hyphens that end no line, where none may end: in Q-learning."""
+    return "".join(piece.replace("-", "\u2011") if whole else piece for piece, whole in parted(text))
 
 
 def _drawn(folder: Path, picture: Picture) -> str:

@@ -287,6 +287,14 @@ def test_word_gets_a_title_headings_formulas_and_a_line_before_each_answer(tmp_p
     assert written("docx", tmp_path) == content
 
 
+def test_word_ends_no_line_behind_the_letter_of_q_learning(tmp_path: Path) -> None:
+    pytest.importorskip("pypandoc")
+    (path,) = export(exam("Q-learning, well-known"), tmp_path / "exam", FORMATS["docx"], practice=False)
+    with zipfile.ZipFile(path) as document:
+        text = "".join(re.findall("<w:t[ >][^<]*", document.read("word/document.xml").decode()))
+    assert "Q\N{NON-BREAKING HYPHEN}learning, well-known" in text
+
+
 def test_word_needs_pandoc_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setitem(sys.modules, "pypandoc", None)
