@@ -30,16 +30,17 @@ _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \newcommand{\start}[1]{\par\vskip 0pt plus 8\baselineskip\penalty-#1\vskip 0pt plus -8\baselineskip}
 \makeatletter\@beginparpenalty=10000\makeatother
 \renewcommand{\arraystretch}{1.25}
-\setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}\setlength{\emergencystretch}{3em}
+\setlength{\parskip}{4pt plus 2pt}
 \pagestyle{headandfoot}
 \firstpageheader{}{}{}
 \runningheader{%(title)s}{}{%(code)s}
 \footer{}{\thepage\ / \numpages}{}
 \pointpoints{%(point)s}{%(points)s}
 \hqword{%(problem)s:}\hpword{%(worth)s:}\hsword{%(reached)s:}\htword{%(total)s}
-\renewcommand{\solutiontitle}{\noindent\textbf{%(working)s:}\par\noindent}
+\renewcommand{\solutiontitle}{\raggedright\textbf{%(working)s:}\par\noindent}
 %(answers)s
 \begin{document}
+\raggedright
 """
 
 

@@ -114,7 +114,7 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
         work,
         "Likelihood times prior is proportional to $exp(−∑_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
         "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent with respect to $θ_1$, "
-        "$(S_{xy} − θ_1 S_{xx})/σ^2 − θ_1/σ_0^2$, is $0$:",
+        "$(S_{x y} − θ_1 S_{x x})/σ^2 − θ_1/σ_0^2$, is $0$:",
     )
     slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)
     if prior.estimate is not None:
