@@ -220,6 +220,18 @@ def test_the_page_stands_alone_and_runs_nothing(report: Report) -> None:
     assert "first reward" in text
 
 
+def test_the_bar_of_most_students_is_the_highest(tmp_path: Path) -> None:
+    path = tmp_path / "answers.csv"
+    # td-zero/1/62590 is 21/4: three have it, the fourth does not.
+    path.write_text("student,problem,part,answer\n" + "".join(
+        f"{who},td-zero/1/62590,a,{answer}\n" for who, answer in zip("ABCD", ("21/4", "5.25", "21/4", "7"), strict=True)
+    ))  # fmt: skip
+    text = page.written(verify([path], Settings()), "reason")
+    bars = re.findall(r'<rect class="bar" x="(\d+)" y="([\d.]+)" width="50" height="([\d.]+)"/>', text)
+    assert bars[0] == ("10", "100.0", "40.0")
+    assert [height for _, _, height in bars[1:]] == ["0.0"] * 8 + ["120.0"]
+
+
 def test_a_table_has_a_column_for_each_thing_that_is_told(report: Report) -> None:
     heads = [tables.written(report, feedback).splitlines()[0].split(",") for feedback in FEEDBACK]
     assert [head[10:] for head in heads] == [

@@ -36,8 +36,10 @@ def test_what_is_refused_and_its_column(text: str, about: str, said: str) -> Non
 
 @pytest.mark.parametrize("text", [r"1 + \frac", r"1 + \sqrt", r"\frac{1}", r"\frac{1}{}", r"\boxed", r"\sqrt[3]"])
 def test_a_command_that_is_applied_to_nothing_is_refused(text: str) -> None:
-    with pytest.raises(Unreadable, match="is applied to nothing; complete it"):
+    with pytest.raises(Unreadable, match="is applied to nothing; complete it") as refused:
         typed(text, 100)
+    # The last sign before the place where something is missing.
+    assert refused.value.position == len(text.removesuffix("{}")) - 1
 
 
 @pytest.mark.parametrize(

@@ -107,6 +107,14 @@ def test_back_and_change_and_go_to_a_part(sitting: Sitting) -> None:
     assert "3 of 3 points" in text
 
 
+def test_who_does_not_hand_in_goes_on_at_the_first_part_without_an_answer_or_at_the_first_of_all(
+    sitting: Sitting,
+) -> None:
+    a, b, last = right(sitting)
+    _, _, hand = sit(sitting, a, "next", last, "no", b, "go 2", "next", "no", "leave")
+    assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1b", "2a", "1 ", "1b", "2a", "2a", "Ha", "1a"]
+
+
 def test_what_cannot_be_read_is_said_and_asked_again(sitting: Sitting) -> None:
     _, text, hand = sit(sitting, "banana", "1", "leave")
     assert "Kept, but it cannot be read and would count as wrong" in text
