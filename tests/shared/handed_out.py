@@ -29,6 +29,8 @@ from rldrill.grading.verification import Settings, verify
 from rldrill.print.key import key_source
 from rldrill.print.worksheet import worksheet_source
 from rldrill.problems.notations import used
+from rldrill.problems.pictures import Arrow, StateDiagram
+from rldrill.render.pictures.svg import svg
 
 #: A table, a letter that is asked for, matrices, names to choose, yes or no; then a diagram, an arm, a plot, roots.
 VERSIONS = {
@@ -140,6 +142,20 @@ def _printed(name: str, code: str, source: Callable[[Exam, Version], str]) -> st
         return source(of, wanted)
 
 
+def _diagram(states: int) -> str:
+    """A ring of states, the last of them terminal, with a second way from each that may lead to another."""
+    names = [f"state {number}" for number in range(1, states + 1)]
+    arrows = [
+        Arrow(name, "on", names[(at + 1) % states], "$1$", f"${at}$") for at, name in enumerate(names[:-1] or names)
+    ]
+    arrows += [
+        Arrow(name, "off", names[(at + step) % states], f"${chance}$", "$−1/2$")
+        for at, name in enumerate(names[:-1])
+        for step, chance in ((0, "1/3"), (2, "2/3"))
+    ]
+    return svg(StateDiagram(tuple(names), tuple(names[1:][-1:]), tuple(arrows)))
+
+
 #: What makes each of the files, by its name.
 FILES: dict[str, Callable[[], str]] = {
     **{
@@ -160,6 +176,7 @@ FILES: dict[str, Callable[[], str]] = {
         for ending, form in _REPORTS.items()
         for feedback in FEEDBACK
     },
+    **{f"diagram-{states}.svg": partial(_diagram, states) for states in range(1, 7)},
 }
 
 
