@@ -295,6 +295,12 @@ def test_a_row_of_another_length_is_named():
         assert refusal(read_table, text, CELLS, (), GOAL) == said.format(entries)
 
 
+@pytest.mark.parametrize("arrow", ["←", ":=", "=", "→", "->", ":"])
+def test_arrows_of_assignments(arrow):
+    table = read_table(f"cool {arrow} 7/2, warm {arrow} 5/2", STATES, (), ENDS)
+    assert {key: str(reading.value) for key, reading in table.items()} == {"cool": "7/2", "warm": "5/2"}
+
+
 def test_all_states_by_their_numbers():
     # FrozenLake's first cells: 1 and 3 are terminal and stand between the others.
     assert [r.value for r in read_table("[7. 0. 5. 0. 4.]", ["0", "2", "4"], (), ["1", "3"]).values()] == [7, 5, 4]
