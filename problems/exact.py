@@ -56,6 +56,9 @@ PARAMETERS = {
     "x": "x",
 }
 
+#: Those of them that lie between 0 and 1.
+SHARES = frozenset({"gamma", "alpha", "lambda", "epsilon", "p", "q"})
+
 #: The same by the names and by the letters.
 _BY_NAME = {spelling: Parameter(name) for name, glyph in PARAMETERS.items() for spelling in (name, glyph)}
 

@@ -11,6 +11,8 @@ from flint import arb, fmpq
 from rldrill.solutions.value import NotReal
 
 T = TypeVar("T")
+#: What is put in for each letter, by its name.
+Point = Callable[[str], fmpq]
 
 _FUNCTIONS = {sympy.exp: arb.exp, sympy.log: arb.log, sympy.sin: arb.sin, sympy.cos: arb.cos,
               sympy.tan: arb.tan, sympy.atan: arb.atan, sympy.Abs: abs}  # fmt: skip
@@ -52,8 +54,8 @@ def exponent(expression: sympy.Expr) -> sympy.Expr | None:
     return expression.args[0] if isinstance(expression, sympy.exp) else None
 
 
-def ball(expression: sympy.Expr, at: fmpq | None = None) -> arb:
-    """A ball that is certain to hold the number, with ``at`` in place of every letter.
+def ball(expression: sympy.Expr, at: Point | None = None) -> arb:
+    """A ball that is certain to hold the number, with what ``at`` says in place of every letter.
 
     Raises:
         NotReal: the expression holds something that has no real value.
@@ -63,7 +65,7 @@ def ball(expression: sympy.Expr, at: fmpq | None = None) -> arb:
         if part.is_Rational:
             return arb(fraction(part))
         if part.is_Symbol and at is not None:
-            return arb(at)
+            return arb(at(part.name))
         if part is sympy.E:
             return arb(1).exp()
         if part is sympy.pi:

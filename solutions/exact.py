@@ -1,6 +1,6 @@
 """Exact values, and all that is asked of them, whatever their form: the one place where forms are told apart."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from decimal import ROUND_HALF_UP, Decimal, localcontext
 from functools import lru_cache, singledispatch
@@ -15,7 +15,7 @@ from sympy.core.sympify import converter
 from rldrill.problems.exact import Logarithm, Parameter, Root, Weight, needed
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.solutions import surds
-from rldrill.solutions.closed_forms import ball, fraction, rational
+from rldrill.solutions.closed_forms import Point, ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
 from rldrill.solutions.rational import RationalFunction, generator
 from rldrill.solutions.value import NoSolution as NoSolution
@@ -118,32 +118,42 @@ parameters.register(fmpq, lambda _: frozenset())
 parameters.register(RationalFunction, lambda value: frozenset((value.parameter,)))
 
 
-@singledispatch
 def value_at(value: Value, point: Value) -> Value:
     """The value with a number in place of the open parameter.
 
     Raises:
         NotReal: there is none.
     """
-    expression = to_sympy(value)
-    put_in = simplest(expression.subs(dict.fromkeys(expression.free_symbols, to_sympy(point))))
-    if isinstance(put_in, sympy.Expr) and put_in.has(sympy.zoo, sympy.nan):
-        raise NotReal(f"there is a pole at {to_sympy(point)}")
-    return put_in
-
-
-@value_at.register
-def _(value: RationalFunction, point: Value) -> Value:
-    return value(point) if type(point) is fmpq else value_at(to_sympy(value), point)
+    return value_where(value, lambda _: point)
 
 
 @singledispatch
-def enclosure(value: Value, at: fmpq | None = None) -> arb:
+def value_where(value: Value, at: Callable[[str], Value]) -> Value:
+    """The value with a number in place of every open parameter, by its name.
+
+    Raises:
+        NotReal: there is none.
+    """
+    expression = to_sympy(value)
+    put_in = simplest(expression.subs({free: to_sympy(at(free.name)) for free in expression.free_symbols}))
+    if isinstance(put_in, sympy.Expr) and put_in.has(sympy.zoo, sympy.nan):
+        raise NotReal(f"{expression} has a pole there")
+    return put_in
+
+
+@value_where.register
+def _(value: RationalFunction, at: Callable[[str], Value]) -> Value:
+    point = at(value.parameter)
+    return value(point) if type(point) is fmpq else value_where(to_sympy(value), at)
+
+
+@singledispatch
+def enclosure(value: Value, at: Point | None = None) -> arb:
     """A ball that is certain to hold the value, at the working precision of ``flint.ctx``.
 
     Args:
         value: an exact value.
-        at: what to put in for the open parameter.
+        at: what to put in for each open parameter.
 
     Raises:
         NotReal: the value holds something that has no real value.
@@ -152,7 +162,7 @@ def enclosure(value: Value, at: fmpq | None = None) -> arb:
 
 
 enclosure.register(fmpq, lambda value, _=None: arb(value))
-enclosure.register(RationalFunction, lambda value, at=None: arb(value(at)))
+enclosure.register(RationalFunction, lambda value, at=None: arb(value(at and at(value.parameter))))
 
 
 @singledispatch
@@ -326,7 +336,7 @@ def sign(value: Value) -> int:
     raise NotReal(f"{expression} is not a real number that can be told from zero")
 
 
-def clear_sign(value: Value, at: fmpq | None, precision: int) -> int | None:
+def clear_sign(value: Value, at: Point | None, precision: int) -> int | None:
     """−1 or 1 if so many bits show that a value is not zero, else 0; None where they show no real value.
 
     Raises:

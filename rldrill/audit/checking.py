@@ -159,7 +159,7 @@ def agrees(part: Part, answer: Any, expected: Any) -> bool:
 
 def as_float(value: Any) -> float:
     """An exact number in floating point; an open parameter takes the oracle's value."""
-    return float(enclosure(value, exact(OPEN)).mid())
+    return float(enclosure(value, lambda _: exact(OPEN)).mid())
 
 
 def _recognised(solution: Solution, part: Part, name: str, answers: Mapping[str, Any]) -> bool:

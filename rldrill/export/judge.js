@@ -25,14 +25,18 @@ const Judge = (() => {
     return Number(whole_) + Number(((n - whole_ * d) * SIZE) / d) / Number(SIZE);
   };
   const finite = (value) => (isExact(value) || Number.isFinite(value) ? value : refuse("A part of it is no real number."));
-  const either = (exact, rough) => (a, b) => finite(isExact(a) && isExact(b) ? exact(a, b) : rough(float(a), float(b)));
-  const add = either(([a, b], [c, d]) => quotient(a * d + c * b, b * d), (a, b) => a + b);
-  const subtract = either(([a, b], [c, d]) => quotient(a * d - c * b, b * d), (a, b) => a - b);
-  const multiply = either(([a, b], [c, d]) => quotient(a * c, b * d), (a, b) => a * b);
-  const isZero = (value) => (isExact(value) ? value[0] === 0n : value === 0);
+  const either = (exact, rough, ofRatios) => (a, b) => (a instanceof Ratio || b instanceof Ratio
+    ? ofRatios(Ratio.of(a), Ratio.of(b))
+    : finite(isExact(a) && isExact(b) ? exact(a, b) : rough(float(a), float(b))));
+  const add = either(([a, b], [c, d]) => quotient(a * d + c * b, b * d), (a, b) => a + b, (a, b) => a.plus(b, add));
+  const subtract = either(([a, b], [c, d]) => quotient(a * d - c * b, b * d), (a, b) => a - b, (a, b) => a.plus(b, subtract));
+  const multiply = either(([a, b], [c, d]) => quotient(a * c, b * d), (a, b) => a * b, (a, b) => a.times(b));
+  const isZero = (value) => (value instanceof Ratio ? !value.top.size : isExact(value) ? value[0] === 0n : value === 0);
   const divide = (a, b) => (isZero(b) ? refuse("It divides by zero.") : divided(a, b));
-  const divided = either(([a, b], [c, d]) => quotient(a * d, b * c), (a, b) => a / b);
+  const divided = either(([a, b], [c, d]) => quotient(a * d, b * c), (a, b) => a / b, (a, b) => a.times(b.upsideDown()));
   const power = (base, exponent) => {
+    if (exponent instanceof Ratio) throw new NoRatio();
+    if (base instanceof Ratio) return base.raised(exponent);
     if (isExact(base) && isExact(exponent) && exponent[1] === 1n) {
       const times = abs(exponent[0]);
       if (times > 400n) refuse("The exponent is too large.");
@@ -42,6 +46,46 @@ const Judge = (() => {
     }
     return finite(Math.pow(float(base), float(exponent)));
   };
+
+  // Quotients of polynomials in the letters: the numbers before each product of letters, above the line and below
+  class Ratio {
+    static of(value) {
+      return value instanceof Ratio ? value : new Ratio(new Map(isZero(value) ? [] : [["", value]]), new Map([["", whole(1)]]));
+    }
+    static letter(name) { return new Ratio(new Map([[name, whole(1)]]), new Map([["", whole(1)]])); }
+    constructor(top, bottom) { this.top = top; this.bottom = bottom; }
+    upsideDown() { return new Ratio(this.bottom, this.top); }
+    times(other) { return new Ratio(product(this.top, other.top), product(this.bottom, other.bottom)); }
+    plus(other, work) {
+      if (same(this.bottom, other.bottom)) return new Ratio(sum(this.top, other.top, work), this.bottom);
+      const [ours, theirs] = [product(this.top, other.bottom), product(other.top, this.bottom)];
+      return new Ratio(sum(ours, theirs, work), product(this.bottom, other.bottom));
+    }
+    raised(exponent) {
+      if (!isExact(exponent) || exponent[1] !== 1n || abs(exponent[0]) > 20n) throw new NoRatio();
+      const factor = exponent[0] < 0n ? this.upsideDown() : this;
+      let result = Ratio.of(whole(1));
+      for (let times = abs(exponent[0]); times > 0n; times -= 1n) result = result.times(factor);
+      return result;
+    }
+  }
+  class NoRatio extends Error {}
+  const sum = (one, other, work) => {
+    const found = new Map(one);
+    for (const [letters, number] of other) found.set(letters, work(found.get(letters) ?? whole(0), number));
+    return new Map([...found].filter(([, number]) => !isZero(number)));
+  };
+  const product = (one, other) => {
+    let found = new Map();
+    for (const [letters, number] of other) {
+      const together = (each) => [...each.split(" "), ...letters.split(" ")].filter(Boolean).sort().join(" ");
+      found = sum(found, new Map([...one].map(([each, factor]) => [together(each), multiply(factor, number)])), add);
+    }
+    return found;
+  };
+  const same = (one, other) => one.size === other.size && [...one].every(([letters, number]) =>
+    other.has(letters) && isZero(subtract(number, other.get(letters))));
+
   const isqrt = (n) => {
     if (n < 2n) return n;
     let x = BigInt(Math.floor(Math.sqrt(Number(n))));
@@ -50,6 +94,7 @@ const Judge = (() => {
     return x;
   };
   const root = (value) => {
+    if (value instanceof Ratio) throw new NoRatio();
     if (isExact(value) && value[0] >= 0n && value[0] < SIZE && value[1] < SIZE) {
       const [n, d] = value.map(isqrt);
       if (n * n === value[0] && d * d === value[1]) return quotient(n, d);
@@ -253,7 +298,7 @@ const Judge = (() => {
     }
     named(typed) {
       const name = this.parameters.includes(typed) ? typed : GREEK[typed] ?? typed.toLowerCase();
-      if (this.parameters.includes(name)) return (at) => at;
+      if (this.parameters.includes(name)) return (at) => at(name);
       if (name === "e") return () => Math.E;
       if (name === "pi") return () => Math.PI;
       if (!(name in FUNCTIONS)) {
@@ -263,7 +308,11 @@ const Judge = (() => {
       if (this.token.kind !== "(") refuse(`Put brackets behind ${name}.`);
       const inside = this.atom();
       if (this.token.kind === "^" || this.token.kind === "raised") refuse("Put brackets around what is raised.");
-      return (at) => FUNCTIONS[name](inside(at));
+      return (at) => {
+        const value = inside(at);
+        if (value instanceof Ratio) throw new NoRatio();
+        return FUNCTIONS[name](value);
+      };
     }
   }
 
@@ -277,13 +326,13 @@ const Judge = (() => {
     const readings = forms.map((form) => {
       const parser = new Parser(comma ? pointed(form) : form, parameters);
       const value = parser.all();
-      POINTS.slice(0, parameters.length ? 2 : 1).forEach((point) => value(point));
+      POINTS.slice(0, parameters.length ? 2 : 1).forEach((_, number) => value(pointOf(number)));
       return { value, decimal: parser.decimal };
     });
     const [first, ...others] = readings;
     for (const other of others) {
       const same = parameters.length ? equivalent(first.value, other.value)
-        : Math.abs(float(first.value(0)) - float(other.value(0))) <= (other.decimal ? 5e-3 * Math.abs(float(first.value(0))) : 1e-9);
+        : Math.abs(float(first.value()) - float(other.value())) <= (other.decimal ? 5e-3 * Math.abs(float(first.value())) : 1e-9);
       if (!same) refuse("It says two numbers which differ; write one.");
     }
     return first;
@@ -291,6 +340,12 @@ const Judge = (() => {
 
   // The rule
   const POINTS = [0.3819660113, 0.1415926536, 0.7182818285, 0.5772156649, 0.9159655942, 0.2502907875, 0.6434105463, 0.8346268417];
+  const SHARES = ["gamma", "alpha", "lambda", "epsilon", "p", "q"];
+  // Every letter has a point of its own, within its range
+  const pointOf = (number) => (name) => {
+    const share = POINTS[(number + [...name].reduce((total, sign) => total + sign.charCodeAt(0), 0)) % POINTS.length];
+    return SHARES.includes(name) ? share : share / (1 - share);
+  };
   const tolerance = ([n, d]) => {
     if (n === 0n) return [1n, 2000n];
     let exponent = abs(n).toString().length - d.toString().length;
@@ -308,15 +363,7 @@ const Judge = (() => {
     const [a, b] = [float(value), float(key)];
     return Math.abs(a - b) <= roughTolerance(b) * (1 + 1e-12);
   };
-  const sampled = (test) => {
-    let tried = 0;
-    for (const point of POINTS) {
-      const verdict = test(point);
-      if (verdict === false) return false;
-      tried += 1;
-    }
-    return tried > 0;
-  };
+  const sampled = (test) => POINTS.every((_, number) => test(pointOf(number)));
   const equivalent = (value, key) => sampled((point) => {
     const [a, b] = [float(value(point)), float(key(point))];
     return Math.abs(a - b) <= 1e-9 * Math.max(1, Math.abs(a), Math.abs(b));
@@ -325,15 +372,33 @@ const Judge = (() => {
   function right(reading, keyText, parameters = []) {
     const key = new Parser(keyText, parameters).all();
     const open = parameters.some((name) => new RegExp(`(?<![A-Za-z])${name}(?![A-Za-z])`).test(keyText)) || varies(reading.value);
-    if (!open) return near(reading.value(0.5), key(0.5));
-    if (equivalent(reading.value, key)) return true;
-    return reading.decimal && sampled((point) => near(reading.value(point), key(point)));
+    if (!open) return near(reading.value(pointOf(0)), key(pointOf(0)));
+    return equivalent(reading.value, key) || (reading.decimal && isRounded(reading.value, key));
   }
-  const varies = (value) => { const [a, b] = POINTS.map((point) => float(value(point))); return a !== b; };
+  // Each number of an expression is right to three digits, whichever of those below the line is taken to be as it is
+  function isRounded(value, key) {
+    let ours, theirs;
+    try {
+      [ours, theirs] = [value, key].map((each) => Ratio.of(each(Ratio.letter)));
+    } catch (error) {
+      if (error instanceof Unreadable) return false;
+      if (!(error instanceof NoRatio)) throw error;
+      return sampled((point) => near(value(point), key(point)));
+    }
+    const alike = (one, other) => one.size === other.size && [...one.keys()].every((letters) => other.has(letters));
+    if (!alike(ours.top, theirs.top) || !alike(ours.bottom, theirs.bottom)) {
+      const one = Ratio.of(whole(1)).bottom;
+      [ours, theirs] = [new Ratio(product(ours.top, theirs.bottom), one), new Ratio(product(theirs.top, ours.bottom), one)];
+      if (!alike(ours.top, theirs.top)) return false;
+    }
+    return [...theirs.bottom.keys()].some((letters) => ["top", "bottom"].every((part) => [...theirs[part]].every(([place, number]) =>
+      near(divide(ours[part].get(place), ours.bottom.get(letters)), divide(number, theirs.bottom.get(letters))))));
+  }
+  const varies = (value) => { const [a, b] = [0, 1].map((number) => float(value(pointOf(number)))); return a !== b; };
   const closeTo = (reading, keyText, parameters) => {
     const key = new Parser(keyText, parameters).all();
     if (parameters.length && (varies(reading.value) || varies(key))) return false;
-    const [a, b] = [float(reading.value(0.5)), float(key(0.5))];
+    const [a, b] = [float(reading.value(pointOf(0))), float(key(pointOf(0)))];
     if (!reading.decimal && !Number.isInteger(a)) return false; // who writes 5/16 or 2√3 means just that
     return b !== 0 && Math.abs(a - b) <= Math.abs(b) / 50;
   };

@@ -8,8 +8,8 @@ import sympy
 from flint import arb, fmpq
 
 from rldrill.problems.spelling import Unreadable
+from rldrill.solutions.closed_forms import Point, folded
 from rldrill.solutions.closed_forms import exponent as exponent_of
-from rldrill.solutions.closed_forms import folded
 from rldrill.solutions.exact import (
     ONE,
     Value,
@@ -160,7 +160,7 @@ class Arithmetic:
         return self._settled(sympy.Pow(nested, sympy.Rational(1, index), evaluate=_is_plain(nested)))
 
     def _exp(self, exponent: Value) -> Value:
-        if abs(_ball(exponent, fmpq(1, 2))) > _GROWTH:
+        if abs(_ball(exponent, lambda _: fmpq(1, 2))) > _GROWTH:
             raise Unreadable(f"The exponent is too large; with e, {_GROWTH} is the largest that is read.")
         nested = self._nested(exponent)
         return self._settled(sympy.exp(nested, evaluate=_is_plain(nested)))
@@ -240,7 +240,7 @@ def _is_plain(argument: sympy.Expr) -> bool:
     )
 
 
-def _ball(number: Value, at: fmpq | None = None) -> arb:
+def _ball(number: Value, at: Point | None = None) -> arb:
     """A ball around a number; with ``at`` given, a form that has no value there counts as zero."""
     try:
         ball = enclosure(number, at)

@@ -3,10 +3,13 @@
 import hashlib
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from flint import fmpq
 
+from rldrill.problems.exact import SHARES
+from rldrill.solutions.answers.coefficients import coefficients
+from rldrill.solutions.closed_forms import Point
 from rldrill.solutions.exact import (
     Value,
     absolute,
@@ -20,7 +23,7 @@ from rldrill.solutions.exact import (
     sign,
     simplest,
     to_sympy,
-    value_at,
+    value_where,
 )
 from rldrill.solutions.exponentials import vanishes
 from rldrill.solutions.value import NotReal
@@ -84,7 +87,7 @@ def is_right(value: Value, key: Value, *, rounded: bool = True) -> bool:
         return within(value, key, tolerance(key))
     if equivalent(value, key):
         return True
-    return rounded and all(_right_at(value, key, point) for point in points(value))
+    return rounded and _is_rounded(value, key)
 
 
 def is_close(value: Value, key: Value) -> bool:
@@ -126,19 +129,43 @@ def equivalent(value: Value, key: Value) -> bool:
         return False
 
 
-def points(value: Value) -> Iterator[fmpq]:
-    """Where an answer is compared with the key: between 0 and 1, and depending on the answer itself.
+def points(value: Value) -> Iterator[Point]:
+    """Where an answer is compared with the key: each letter within its own range, and depending on the answer itself.
 
     So no answer can be made to agree at these points alone.
     """
-    digest = hashlib.sha256(str(to_sympy(value)).encode()).digest()
-    for start in range(0, 2 * _POINTS, 2):
-        yield fmpq(1 + int.from_bytes(digest[start : start + 2], "big"), 65537)
+    typed = str(to_sympy(value))
+    for number in range(_POINTS):
+        yield partial(_point, f"{number} {typed}")
 
 
-def _right_at(value: Value, key: Value, point: fmpq) -> bool:
+def _point(key: str, letter: str) -> fmpq:
+    digest = hashlib.sha256(f"{letter} {key}".encode()).digest()
+    share = fmpq(1 + int.from_bytes(digest[:2], "big"), 65538)
+    return share if letter in SHARES else share / (1 - share)
+
+
+def _is_rounded(value: Value, key: Value) -> bool:
+    """Whether an expression is the key with its numbers rounded: each of them, where both are quotients of polynomials.
+
+    At a point a sum may need more digits than its terms have, and a term may be too small to count.
+    """
+    letters = sorted(parameters(value) | parameters(key))
+    ours, theirs = coefficients(value, letters), coefficients(key, letters)
+    if ours is None or theirs is None:
+        return all(_right_at(value, key, point) for point in points(value))
+    if ours.keys() != theirs.keys():
+        return False
+    return any(  # whichever number below the line is taken to be as it is
+        all(within(ours[each] / ours[one], here := theirs[each] / theirs[one], tolerance(here)) for each in theirs)
+        for one in theirs
+        if one.below
+    )
+
+
+def _right_at(value: Value, key: Value, at: Point) -> bool:
     try:
-        here = value_at(key, point)
-        return within(value_at(value, point), here, tolerance(here))
+        here = value_where(key, at)
+        return within(value_where(value, at), here, tolerance(here))
     except NotReal:
         return False

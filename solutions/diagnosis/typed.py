@@ -93,7 +93,7 @@ def approximate(value: Any) -> float:
         except OverflowError:
             return _NOT_COMPUTED
     try:
-        return float(enclosure(value, _POINT).mid())
+        return float(enclosure(value, lambda _: _POINT).mid())
     except UNDONE:
         return _NOT_COMPUTED
 

@@ -150,6 +150,21 @@ def test_only_decimals_may_be_off_in_an_expression(key: Any, other: Any) -> None
     assert not is_right(key * fmpq(102, 100), key, rounded=True)
 
 
+@given(st.lists(st.fractions(-30, 30, max_denominator=12), min_size=2, max_size=4).filter(lambda all_: any(all_[1:])))
+def test_an_expression_is_right_with_each_of_its_numbers_rounded(numbers: list[Fraction]) -> None:
+    terms = " + ".join(f"({number})*x^{power}" for power, number in enumerate(numbers))
+    rounded = " + ".join(f"({float(number):.3g})*x^{power}" for power, number in enumerate(numbers))
+    assert is_right(read_number(rounded, ["x"]).value, read_number(terms, ["x"]).value)
+
+
+def test_two_letters_are_not_one() -> None:
+    key = read_number("ln(gamma) + ln(x)", ["gamma", "x"]).value
+    assert equivalent(read_number("ln(gamma x)", ["gamma", "x"]).value, key)
+    for text in ("2 ln(x)", "2 ln(gamma)", "2.0 ln(x)"):
+        reading = read_number(text, ["gamma", "x"])
+        assert not is_right(reading.value, key, rounded=reading.decimal)
+
+
 def test_a_number_is_no_function() -> None:
     assert not is_right(fmpq(1, 2), generator("gamma"), rounded=True)
     assert not is_right(generator("gamma"), fmpq(1, 2), rounded=True)

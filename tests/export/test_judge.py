@@ -16,6 +16,7 @@ from rldrill.export.html import task
 from rldrill.export.page import beside
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.rule import is_right
 from rldrill.solutions.answers.text import Unreadable, read_number
 
 READ = """
@@ -123,6 +124,36 @@ def test_the_bound_itself_is_right_and_what_lies_beyond_is_not() -> None:
     assert [judged(one, [typed])["outcome"] for typed in ("1229", "1239", "1239.001", "1228.999")] == [
         "right", "right", "close", "close",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("key", "letters", "typed", "outcome"),
+    [
+        # −0.96ρ is 4 % off, however small it is beside 30; −1.004ρ is −ρ to three digits, −1.006ρ is not.
+        ("-rho - 30", ["rho"], "-0.96rho - 30", "wrong"), ("-rho - 30", ["rho"], "-1.004ρ - 30", "right"),
+        ("-rho - 30", ["rho"], "-1.006rho - 30", "wrong"), ("200 + x/2", ["x"], "200.0 + x", "wrong"),
+        ("200 + x/2", ["x"], "200.0", "wrong"), ("200 + x/2", ["x"], "0.5*(x + 400)", "right"),
+        # 1/3 and 2/3 rounded, where the sum at many a point would need a fourth digit
+        ("x/3 - 2/3", ["x"], "0.333x - 0.667", "right"), ("x/3 - 2/3", ["x"], "0.333x - 0.66", "wrong"),
+        ("(2*gamma + 4)/(3 - gamma)", ["gamma"], "(0.667γ + 1.33)/(1 - 0.333γ)", "right"),
+        ("(2*gamma + 4)/(3 - gamma)", ["gamma"], "(0.667γ + 1.33)/(1 - 0.34γ)", "wrong"),
+        ("(2*gamma + 4)/(3 - gamma)", ["gamma"], "1.33/(1 - γ/3) + 0.667γ/(1 - γ/3)", "right"),
+        # Two letters are two letters: 2γ + x is neither 2x + γ nor 3x.
+        ("2*gamma + x", ["gamma", "x"], "2.0γ + x", "right"), ("2*gamma + x", ["gamma", "x"], "2.0x + γ", "wrong"),
+        ("2*gamma + x", ["gamma", "x"], "3.0x", "wrong"), ("2*gamma + x", ["gamma", "x"], "2x + γ", "wrong"),
+        ("x*gamma + x/3", ["gamma", "x"], "x(γ + 0.333)", "right"),
+        # No quotient of polynomials: compared at points
+        ("exp(gamma)/3", ["gamma"], "0.33333 e^γ", "right"), ("exp(gamma)/3", ["gamma"], "0.34 e^γ", "wrong"),
+        ("sqrt(x)/3", ["x"], "0.33333 sqrt(x)", "right"), ("sqrt(x)/3", ["x"], "0.34 sqrt(x)", "wrong"),
+    ],
+)  # fmt: skip
+def test_of_an_expression_each_number_is_right_to_three_digits(
+    key: str, letters: list[str], typed: str, outcome: str
+) -> None:
+    one = {"parameters": letters, "cells": [{"name": "", "key": key}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+    reading = read_number(typed, letters)
+    assert is_right(reading.value, read_number(key, letters).value, rounded=reading.decimal) == (outcome == "right")
 
 
 def test_a_typical_mistake_is_told() -> None:
