@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from rldrill.problems.readings import is_zero
+from rldrill.problems.readings import is_zero, several
 from rldrill.problems.transition_tables import ALONE
 
 _SHAPES = "one number for every state, (S,); for every state and action, (S, A); or shaped like P, (A, S, S)"
@@ -71,7 +71,7 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
     kind = _shape(R)
     if kind not in ((states,), (states, actions), shape):
         raise ValueError(f"R has the shape {_told(kind)}, which does not fit P's {_told(shape)}; give {_SHAPES}")
-    terminal = [str(state) for state in data.get("terminal", ())]
+    terminal = [str(state) for state in several(data.get("terminal", ()))]
     rows = [
         [
             str(s),

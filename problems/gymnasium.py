@@ -1,10 +1,10 @@
 """Tables of Gymnasium's toy-text environments as models: written out, or of an environment that is installed."""
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from rldrill.problems.grids import OVER
-from rldrill.problems.readings import is_zero
+from rldrill.problems.episodes import Outcome, model
 
 _ENTRY = "[probability, next state, reward, whether the episode ends]"
 
@@ -60,6 +60,10 @@ def read_environment(data: Mapping[str, Any]) -> dict[str, Any]:
     extra = set(data) - {"gymnasium", "options"}
     if extra:
         raise ValueError(f"{min(extra)!r} is not understood beside 'gymnasium'; give 'options' only")
+    if not re.fullmatch(r"[\w./-]+", str(data["gymnasium"])):  # before a colon it would name a module to import
+        raise ValueError(
+            f"{str(data['gymnasium'])[:40]!r} is not the ID of an environment; write one such as CliffWalking-v1"
+        )
     try:
         import gymnasium
     except ImportError:
@@ -89,29 +93,14 @@ def read_table(data: Mapping[str, Any]) -> dict[str, Any]:
 def from_table(table: Mapping[Any, Mapping[Any, Any]]) -> dict[str, Any]:
     """A table ``{state: {action: [(probability, next state, reward, ends), …]}}`` as a model's transitions.
 
-    A state that is entered where the episode ends is terminal, whatever the table says of it; but where the episode
-    also goes on from there, or ends there for who stays only, it ends in a state of its own.
-
     Raises:
         ValueError: an entry has another form.
     """
-    lines = list(_lines(table))
-    ended = {after for state, *_, after, _, ends in lines if ends and after != state}
-    lived_in = {after for state, *_, after, _, ends in lines if not ends and state not in ended}
-    lived_in |= {state for state, *_ in lines if state not in ended}
-    lines = [(*line[:3], OVER if line[-1] and line[3] in lived_in else line[3], *line[4:]) for line in lines]
-    terminal = {after for *_, after, _, ends in lines if ends}
-    return {
-        "transitions": [
-            [state, action, after, probability, reward]
-            for state, action, probability, after, reward, _ in lines
-            if state not in terminal and not is_zero(probability)
-        ],
-        "terminal": sorted(terminal, key=lambda name: (len(name), name)),
-    }
+    read = model(list(_lines(table)))
+    return read | {"terminal": sorted(read["terminal"], key=lambda name: (len(name), name))}
 
 
-def _lines(table: Mapping[Any, Mapping[Any, Any]]) -> Iterator[tuple[str, str, Any, str, Any, bool]]:
+def _lines(table: Mapping[Any, Mapping[Any, Any]]) -> Iterator[Outcome]:
     for state, row in table.items():
         if not isinstance(row, Mapping):
             raise ValueError(f"P: {str(state)!r} must have a table of its actions, each with its list of {_ENTRY}")
@@ -119,6 +108,6 @@ def _lines(table: Mapping[Any, Mapping[Any, Any]]) -> Iterator[tuple[str, str, A
             for number, outcome in enumerate(outcomes if isinstance(outcomes, list | tuple) else [outcomes], 1):
                 match outcome:
                     case [probability, after, reward, bool(ends)]:
-                        yield str(state), str(action), probability, str(after), reward, ends
+                        yield Outcome(str(state), str(action), str(after), probability, reward, ends)
                     case _:
                         raise ValueError(f"P: outcome {number} of {action} in {state} must be {_ENTRY}")

@@ -73,10 +73,10 @@ def _may_be_an_entry(value: Any, entries: Sequence[Schema]) -> bool:
 
 def _table(value: Mapping[str, Any], forms: Sequence[Schema], parts: Mapping[str, Schema]) -> dict[str, Any]:
     fields = {name for form in forms for name in form.get("properties", ())}
-    found = {}
+    found: dict[str, Any] = {}
     for key, inner in value.items():
         meant = ALSO.get(str(key), key)
-        name = meant if meant in fields and meant not in value and key not in fields else key
+        name = meant if meant in fields and meant not in {*value, *found} and key not in fields else key
         known = [form.get("properties", {}).get(name, form.get("additionalProperties")) for form in forms]
         found[name] = _settled(inner, [each for each in known if isinstance(each, dict)], parts)
     return found

@@ -6,7 +6,7 @@ from typing import Any
 from rldrill.problems import arrays, gymnasium
 from rldrill.problems.exact import is_scalar, read_scalar
 from rldrill.problems.grids import read_grid
-from rldrill.problems.readings import Note
+from rldrill.problems.readings import Note, several
 from rldrill.problems.transition_tables import ALONE, read_markdown_table, read_records, read_transition_table
 
 _ROW = "[state, action, next, probability, reward]"
@@ -124,7 +124,9 @@ def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
         return _read_table(rows) | {name: field for name, field in given.items() if name != "transitions"}
     if not isinstance(rows, list | tuple) or not any(isinstance(row, list) and len(row) == 4 for row in rows):
         return given
-    states = {str(row[0]) for row in rows if isinstance(row, list) and row} | {*map(str, data.get("terminal", ()))}
+    states = {str(row[0]) for row in rows if isinstance(row, list) and row} | {
+        *map(str, several(data.get("terminal", ())))
+    }
     for number, row in enumerate(rows, 1):
         if not isinstance(row, list) or len(row) != 4 or not is_scalar(row[2]) or str(row[1]) not in states:
             raise ValueError(
@@ -169,7 +171,11 @@ def _read_rewards(data: Mapping[str, Any]) -> dict[str, Any]:
     for state in paid:
         if state not in acting | reached:
             raise ValueError(f"rewards: {state!r} does not occur in the transitions; correct its name")
-        if on == "leaving" and state not in acting and paid[state] != "0":
+        if (
+            on == "leaving"
+            and state not in acting
+            and (isinstance(paid[state], Mapping) or read_scalar(paid[state]) != 0)
+        ):
             raise ValueError(
                 f"rewards: {state!r} is an end, which is never left, so its reward is never earned; set rewards_on = "
                 "'entering', or add a transition from it to another end"

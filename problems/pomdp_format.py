@@ -106,15 +106,17 @@ class _Model:
         wanted = {1: len(states) ** 2, 2: len(states), 3: 1}.get(len(names), 0)
         if (many != 1 and many != wanted) or (many == 1 and len(names) == 3 and values[0].isalpha()):
             raise ValueError(f"T: {many} numbers stand here, {wanted} are needed, or uniform or identity")
-        for action, state in self._pairs(names):
+        pairs = list(self._pairs(names))
+        more = len(pairs) * (1 if len(names) == 3 or values == ["identity"] else len(states))
+        if sum(map(len, self.chances.values())) + more > _LARGEST:
+            raise ValueError(f"T: there are more than {_LARGEST} transitions; write a smaller model")
+        for action, state in pairs:
             row = self.chances.setdefault((action, state), {})
             if len(names) == 3:
                 row |= dict.fromkeys(self._meant(names[2], "states"), values[0])
                 continue
             first = states.index(state) * len(states) if len(names) == 1 else 0
             self.chances[action, state] = self._row(state, values, first)
-        if sum(map(len, self.chances.values())) > _LARGEST:
-            raise ValueError(f"T: there are more than {_LARGEST} transitions; write a smaller model")
 
     def _row(self, state: str, values: list[str], first: int) -> dict[str, str]:
         states = self.names["states"]

@@ -1,10 +1,10 @@
 """Numbers that programs wrote, read as the simple fractions that they round: 0.3333333333333333 is 1/3."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from math import isqrt
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 from pydantic import ValidationInfo
 
@@ -87,6 +87,11 @@ def told(number: Fraction) -> str:
     if number.denominator <= _DENOMINATOR:
         return str(number)
     return f"{Decimal(number.numerator) / number.denominator:.28g}"
+
+
+def several(written: Any) -> Sequence[Any]:
+    """A list as it is, and anything else as a list of one entry."""
+    return written if isinstance(written, list | tuple) else [written]
 
 
 def is_zero(written: object) -> bool:

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from itertools import dropwhile, takewhile
 from typing import Any
 
+from rldrill.problems.episodes import Outcome, model
+
 #: The one action of a process without actions.
 ALONE = "step"
 #: What a column may be called, in small letters without blanks and underscores.
@@ -30,7 +32,8 @@ _COLUMNS = {
 }
 _NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spelling in spellings}
 _TRUE, _FALSE = ("1", "true", "yes", "1.0"), ("", "0", "false", "no", "0.0")
-_COMMA = re.compile(r"[+−-]?\d+,\d+\s*%?")
+#: A decimal comma; 1,000 may be a thousand, and is left to be refused.
+_COMMA = re.compile(r"[+−-]?(?![1-9]\d{0,2},\d{3}(?!\d))\d+,\d+\s*%?")
 #: What parts the cells of a Markdown table, what sets them off, and the line below its header.
 _BAR, _MARKUP, _RULE = re.compile(r"(?<!\\)\|"), re.compile(r"[`*$\\]"), re.compile(r"\s*:?-+:?\s*")
 
@@ -43,8 +46,12 @@ def read_transition_table(text: str) -> dict[str, Any]:
     """
     lines = text.splitlines()
     begin = 1 if lines and re.fullmatch(r"sep=.", lines[0].strip(), re.IGNORECASE) else 0
-    parted = max(",;\t", key=lines[begin].count) if len(lines) > begin else ","
-    return _table(enumerate(csv.reader(lines[begin:], delimiter=parted), begin + 1), commas=parted != ",")
+    header = re.sub(r"\([^()]*\)", "", lines[begin]) if len(lines) > begin else ""  # R(s,a) is one column
+    parted = max(",;\t", key=header.count)
+    try:
+        return _table(enumerate(csv.reader(lines[begin:], delimiter=parted), begin + 1), commas=parted != ",")
+    except csv.Error as error:
+        raise ValueError(f"it is not parted into cells ({error}); look for a quote that is not closed") from None
 
 
 def read_markdown_table(text: str) -> dict[str, Any]:
@@ -122,14 +129,11 @@ def _columns(header: list[str]) -> dict[int, str]:
 def _model(lines: list[tuple[str, dict[str, str]]]) -> dict[str, Any]:
     if not lines:
         raise ValueError("there is no transition below the header; add one")
-    rows, ends = [], []
+    rows = []
     for place, cells in lines:
         end = cells.get("end", "").lower()
         if end not in _TRUE + _FALSE:
             raise ValueError(f"{place}: whether the episode ends is {end[:40]!r}; write true or false")
-        if end in _TRUE:
-            ends.append(cells["next"])
-        action = cells.get("action", ALONE)
-        rows.append([cells["state"], action, cells["next"], cells.get("probability", "1"), cells["reward"]])
-    terminal = list(dict.fromkeys(ends))
-    return {"transitions": [row for row in rows if row[0] not in terminal], "terminal": terminal}
+        action, chance = cells.get("action", ALONE), cells.get("probability", "1")
+        rows.append(Outcome(cells["state"], action, cells["next"], chance, cells["reward"], end in _TRUE))
+    return model(rows)

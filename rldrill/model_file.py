@@ -1,11 +1,13 @@
 """Files that hold a model: tables (CSV, TSV, Markdown), arrays (.npz), JSON in some forms, pomdp-solve's format."""
 
 import zipfile
+import zlib
 from pathlib import Path
 from typing import Any
 
 from rldrill.files import MODEL_SUFFIXES, brief, kind_of, parse, read_bytes, read_text, shown
 from rldrill.problems.errors import FileError
+from rldrill.problems.habits import ALSO
 from rldrill.problems.pomdp_format import read_pomdp
 from rldrill.problems.transition_tables import read_markdown_table, read_records, read_transition_table
 
@@ -57,8 +59,8 @@ def _arrays(path: str | Path) -> dict[str, Any]:
             if sum(member.file_size for member in packed.infolist()) > _LARGEST:
                 raise ValueError(f"the arrays are larger than {_LARGEST // 10**6} MB; write a smaller model")
         with np.load(content, allow_pickle=False) as arrays:
-            return {name: arrays[name].tolist() for name in arrays.files}
-    except (zipfile.BadZipFile, EOFError, KeyError, OSError):
+            return {name: _listed(arrays[name]) for name in arrays.files}
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, MemoryError, EOFError, KeyError, OSError):
         raise ValueError("this is no file of numpy's; write it with np.savez(path, P=P, R=R)") from None
     except ValueError as error:
         if "pickle" in str(error):
@@ -66,6 +68,14 @@ def _arrays(path: str | Path) -> dict[str, Any]:
                 "it holds Python objects, which are not read; write arrays with np.savez(path, P=np.stack(P), R=R)"
             ) from None
         raise
+
+
+def _listed(array: object) -> Any:
+    import numpy as np
+
+    if not isinstance(array, np.ndarray):  # numpy hands over what else is packed as it is
+        raise KeyError
+    return array.tolist()
 
 
 def with_files(given: object, folder: Path) -> object:
@@ -86,7 +96,7 @@ def with_files(given: object, folder: Path) -> object:
         if not isinstance(value["file"], str):
             raise FileError(f"given.{key}.file: must be the name of a file, not {brief(value['file'])}.")
         model = read_model(folder / value["file"])
-        if "discount" in model and "gamma" not in given:
+        if "discount" in model and "gamma" not in {ALSO.get(str(name), name) for name in given}:
             read["gamma"] = model["discount"]
         beside = {name: field for name, field in value.items() if name != "file"}
         read[key] = {name: field for name, field in model.items() if name != "discount"} | beside

@@ -1,6 +1,8 @@
 """Models in files of their own: tables, arrays, JSON and pomdp-solve's format."""
 
+import io
 import json
+import zipfile
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -71,6 +73,10 @@ def optimal(folder: Path, name: str, content: str | bytes, mdp: str = "", gamma:
          + "\n\nno | more\n"),
         ("bars.md", "\n".join(f"|{line}|".replace(",", "|") for line in CAR.splitlines())
          .replace("probability", "P(s'\\|s,a)").replace("|next|", "|`s'`|").replace("|cool|", "|**cool**|")),
+        ("headers.tsv", CAR.replace("state,action,next,probability,reward", "s,a,s',T(s;a;s'),R(s;a;s')")
+         .replace(",", "\t").replace("(s;a;s')", "(s,a,s')")),
+        ("headers.csv", CAR.replace("state,action,next,probability,reward", "s,a,s',T(s#a#s'),R(s#a#s')")
+         .replace(",", ";").replace("#", ",")),
         ("car.json", json.dumps(RECORDS)),
         ("rows.json", json.dumps([line.split(",") for line in CAR.splitlines()[1:]])),
         ("model.json", json.dumps({"transitions": [line.split(",") for line in CAR.splitlines()[1:]]})),
@@ -119,6 +125,10 @@ def test_a_process_without_actions(tmp_path: Path) -> None:
         ("a.csv", "s,s',r,done\nx,y,1,perhaps\n", "line 2: whether the episode ends is 'perhaps'; write true or false"),
         ("a.md", "s, a, s', r\n", "there is no table; begin its lines with |, as in | state | action | next |"),
         ("a.md", "\n\n| s | a | s' | r |\n|---|---|---|---|\n| x | y |\n", "line 5 has 2 entries, the header has 4"),
+        # 1,000 is one or a thousand.
+        ("a.csv", CAR.replace(",", ";").replace("-10", "1,000"), "may be '1.000' or '1000'; write the one"),
+        ("a.md", "| s | s' | r |\n|--|--|--|\n| x | y | -12,500 |\n", "'-12,500' is not a number"),
+        ("a.csv", CAR + '"cool,slow' + ",x" * 70000, "look for a quote that is not closed"),
         ("a.json", "[1, 2]", "given.mdp.transitions[1]"),
         ("a.json", "3", "a model is a table or a list of transitions, not a single value"),
         ("a.json", '{"family": "td-zero"}', "this is a problem file"),
@@ -140,6 +150,46 @@ def test_what_a_file_cannot_say_is_one_sentence(tmp_path: Path, name: str, conte
         optimal(tmp_path, name, content)
     assert says in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def packed(**members: bytes) -> bytes:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as file:
+        for name, member in members.items():
+            file.writestr(f"{name}.npy", member)
+    return content.getvalue()
+
+
+def damaged(folder: Path) -> bytes:
+    np.savez_compressed(folder / "whole.npz", P=FOREST, R=REWARDS)
+    content = bytearray((folder / "whole.npz").read_bytes())
+    content[content.index(b"P.npy") + 30] ^= 0xFF
+    return bytes(content)
+
+
+_HEADER = (
+    b"\x93NUMPY\x01\x00v\x00"
+    + b"{'descr': '<f8', 'fortran_order': False, 'shape': (17179869184,), }".ljust(117)
+    + b"\n"
+)
+
+
+@pytest.mark.parametrize("content", [packed(P=b"no array"), packed(P=_HEADER, R=_HEADER), b"PK\x05\x06", None])
+def test_what_is_no_file_of_numpys_is_said_to_be_none(tmp_path: Path, content: bytes | None) -> None:
+    with pytest.raises(FileError, match="this is no file of numpy's; write it with"):
+        optimal(tmp_path, "a.npz", damaged(tmp_path) if content is None else content)
+
+
+@pytest.mark.parametrize("discount", ["discount", '"\N{GREEK SMALL LETTER GAMMA}"', "gamma"])
+def test_a_discount_of_the_problem_goes_before_that_of_its_model(tmp_path: Path, discount: str) -> None:
+    model = CASSANDRA.replace("discount: 0.9", "discount: 0.5")
+    assert optimal(tmp_path, "car.pomdp", model, gamma=f"{discount} = 0.9\n") == RACING | {"off": 0}
+
+
+def test_an_episode_that_ends_where_another_goes_on_ends_in_a_state_of_its_own(tmp_path: Path) -> None:
+    # V(X) = 100 + V(A)/2, V(B) = V(X)/2; A's own episode is over, for nothing.
+    table = "s,a,s',p,r,done\nA,go,X,1,0,true\nB,go,X,1,0,false\nX,go,A,1,100,false\n"
+    assert optimal(tmp_path, "a.csv", table, gamma="gamma = 0.5\n") == {"A": 0, "B": 50, "X": 100}
 
 
 def test_objects_in_arrays_are_not_read(tmp_path: Path) -> None:

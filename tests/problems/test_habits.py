@@ -59,6 +59,8 @@ def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], 
         ("eligibility-trace", {"states": "a b", "gamma": 1, "lam": 1, "asked": [0]}, "given.states: must be a list"),
         ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "lambda": 1, "asked": [0]},
          "given.lambda is not a field"),
+        ("eligibility-trace", {"states": ["a"], "discount": 1, "discount_factor": 1, "lam": 1, "asked": [0]},
+         "given.discount_factor is not a field"),
         ("rbf", {"position": [0, 1], "centres": [0, 1], "sigma": 1}, "given"),
         # one task of curvature 1 and optimum 3, or two
         ("maml-step", {"theta": 0, "alpha": 1, "beta": 1, "tasks": [1, 3]},

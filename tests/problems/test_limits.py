@@ -1,5 +1,6 @@
 """How large a problem in a file may be: the largest is read, and the next refused with the limit named."""
 
+import tracemalloc
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -223,6 +224,14 @@ def test_more_than_a_million_transitions_of_a_pomdp_file_are_not_written_out() -
     # 1001 states, each with a way to each: 1 002 001.
     with pytest.raises(ValueError, match="line 5: T: there are more than 1000000 transitions; write a smaller model"):
         read_pomdp("discount: 0.5\nvalues: reward\nstates: 1001\nactions: 1\nT: * uniform\nR: * : * : * 1\n")
+
+
+def test_they_are_counted_before_they_are_written_out() -> None:
+    tracemalloc.start()  # 5 · 9999² would take more memory than there is
+    with pytest.raises(ValueError, match="more than 1000000 transitions"):
+        read_pomdp("discount: 0.5\nvalues: reward\nstates: 9999\nactions: 5\nT: * uniform\nR: * : * : * 1\n")
+    assert tracemalloc.get_traced_memory()[1] < 10**8
+    tracemalloc.stop()
 
 
 @pytest.mark.parametrize(("horizon", "asked"), [(1, 1), (2, 2), (12, 12), (13, 12), (20, 12)])

@@ -8,6 +8,7 @@ from flint import fmpq
 from pydantic import ValidationError
 
 from asking import solved
+from rldrill.problems.catalogue import family
 from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
@@ -175,6 +176,7 @@ def test_what_a_form_cannot_say_is_one_sentence(given: dict[str, Any], fragment:
         ({"grid": "SC\n..", "returns": {"C": "."}}, "must stand for one cell"),
         ({"grid": ("." * 60 + "\n") * 20}, "1200 cells"),
         ({"gymnasium": "FrozenLake-v1", "gamma": 1}, "'gamma' is not understood"),
+        ({"gymnasium": "antigravity:FrozenLake-v1"}, "'antigravity:FrozenLake-v1' is not the ID of an environment"),
     ],
 )
 def test_what_does_not_fit_is_one_sentence(given: dict[str, Any], fragment: str) -> None:
@@ -201,6 +203,45 @@ def test_where_an_episode_may_also_go_on_it_ends_in_a_state_of_its_own() -> None
     assert outcomes(model, "2", "0") == {"over": (Fraction(1, 2), 4), "2": (Fraction(1, 2), 0)}
     assert outcomes(model, "0", "1") == {"3": (1, 1)}
     assert set(model.terminal) == {"3", "over"}
+
+
+def test_a_state_is_left_however_long_the_way_to_it_is() -> None:
+    """A leads to B, B to Y, Y to X, whence 100 are earned; A's other action ends the episode in X or in Y."""
+    table = {"A": {0: [(1, "B", 0, False)], 1: [("1/2", "Y", 0, True), ("1/2", "X", 0, True)]},
+             "B": {0: [(1, "Y", 0, False)]}, "Y": {0: [(1, "X", 0, False)]},
+             "X": {0: [(1, "Z", 100, True)]}}  # fmt: skip
+    model = Model.model_validate(from_table(table))
+    assert outcomes(model, "X", "0") == {"Z": (1, 100)}
+    assert outcomes(model, "Y", "0") == {"X": (1, 0)}
+    assert outcomes(model, "A", "1") == {"over": (1, 0)}
+    assert set(model.terminal) == {"Z", "over"}
+
+
+def test_what_cannot_happen_ends_nothing() -> None:
+    table = {0: {0: [(1.0, 1, 0.0, False), (0.0, 1, 0.0, True)]}, 1: {0: [(1.0, 0, 7.0, False)]}}
+    assert outcomes(Model.model_validate(from_table(table)), "1", "0") == {"0": (1, 7)}
+
+
+@pytest.mark.parametrize("terminal", ["2", 2, ["2"], [2]])
+@pytest.mark.parametrize(
+    "model",
+    [{"P": [[[0, 1, 0], [0, 0, 1], [0, 0, 1]]], "R": [1, 1, 1]}, {"transitions": [[0, 1, 1, 1], [1, 2, 1, 1]]}],
+    ids=["arrays", "rows"],
+)
+def test_one_terminal_state_needs_no_brackets(model: dict[str, Any], terminal: Any) -> None:
+    given = family("policy-value").read({"gamma": "1/2", "mdp": model | {"terminal": terminal}})
+    assert given.mdp.terminal == ("2",)  # type: ignore[attr-defined]
+
+
+def test_a_terminal_state_of_two_digits_is_one_state() -> None:
+    chain = [[[float(after == state + 1) for after in range(13)] for state in range(12)] + [[0.0] * 12 + [1.0]]]
+    assert Model.model_validate({"P": chain, "R": [1] * 13, "terminal": "12"}).terminal == ("12",)
+
+
+@pytest.mark.parametrize("nothing", [0, 0.0, "0.0", "0/1", "-0"])
+def test_an_end_may_be_given_its_reward_of_nothing(nothing: Any) -> None:
+    model = {"transitions": [["s", "t", 1]], "rewards": {"s": 1, "t": nothing}}
+    assert outcomes(Model.model_validate(model), "s", "step") == {"t": (1, 1)}
 
 
 def test_a_square_alone_is_a_process_without_actions() -> None:
