@@ -13,6 +13,7 @@ from rldrill.problems.habits import ALSO
 _LONGEST = 40
 _PLACE = re.compile(r"([a-z_]+(?:\[\d+\])*): ", re.IGNORECASE)
 _TABLE = "must be a table, in which every name has its value"
+_NAMED = f"{_TABLE}: {{{{A = …, B = …}}}}"
 _WHOLE = "{given} is not a whole number; write one, such as 3"
 _TRUTH = "{given} is neither true nor false; write one of them"
 _LIST = "must be a list; a single entry, too, stands in brackets: {listed}"
@@ -29,7 +30,7 @@ _SAYS = {
     "missing_argument": "is missing; add it",
     "unexpected_positional_argument": "is one entry too many; take it out",
     "model_type": _TABLE,
-    "dict_type": _TABLE,
+    "dict_type": _NAMED,
     "tuple_type": _LIST,
     "list_type": _LIST,
     "named_tuple_type": "must be a list, with the entries of one {class_name}",
@@ -80,10 +81,16 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
     told = says(first)
     if first["type"] == "model_type" and 0 < len(names := _known(schema, place)) <= _SHOWN:
         told = f"{told}: {', '.join(names)}"
-    if first["type"] == "tuple_type" and (size := _row(schema, place)):
-        told = f"must be a list of {size} entries, in brackets of its own"
-    elif first["type"] == "tuple_type" and (size := _row(schema, [*place, 0])):
-        told = f"must be a list, in which each entry is a list of {size}"
+    if first["type"] == "tuple_type" and isinstance(first["input"], Mapping):
+        told = "must be a list in brackets, not a table"
+    if first["type"] == "tuple_type" and (row := _row(schema, place)):
+        told = f"must be a list {row}, in brackets of its own"
+    elif first["type"] == "tuple_type" and (row := _row(schema, [*place, 0])):
+        told = f"must be a list, in which each entry is a list {row}"
+    elif first["type"] == "named_tuple_type":
+        told = f"must be a list, {_row(schema, place)}"
+    elif place and isinstance(place[-1], int) and (row := _row(schema, place[:-1])).startswith("["):
+        told = f"{told}; the row is {row}"
     if begun := _PLACE.match(told):  # what a whole model says of one of its fields
         path, told = f"{path}.{begun[1]}", told[begun.end() :]
     return f"given{path}: {told}{more}."
@@ -111,9 +118,13 @@ def _known(whole: Schema, place: Sequence[int | str]) -> list[str]:
     return list(dict.fromkeys(name for schema in _at(whole, whole, place) for name in schema.get("properties", ())))
 
 
-def _row(whole: Schema, place: Sequence[int | str]) -> int:
-    """How many entries a row has that may stand at a place; 0 where none may."""
-    return next((len(form["prefixItems"]) for form in _at(whole, whole, place) if "prefixItems" in form), 0)
+def _row(whole: Schema, place: Sequence[int | str]) -> str:
+    """A row that may stand at a place, ``[state, next, reward]`` or ``of 2 entries``; nothing where none may."""
+    for form in _at(whole, whole, place):
+        if "prefixItems" in form:
+            entries = [entry.get("description", "") for entry in form["prefixItems"]]
+            return f"[{', '.join(entries)}]" if all(entries) else f"of {len(entries)} entries"
+    return ""
 
 
 def _at(whole: Schema, schema: Schema, place: Sequence[int | str]) -> Iterator[Schema]:

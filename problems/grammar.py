@@ -310,7 +310,8 @@ class _Parser:
         if before.kind == "%":
             power = self._text(sign, before)
             raise self._error(f"{quoted(power)} may be ^({power[1:]}) or ({power[:-1]})%; write brackets.", sign)
-        if before.text == "1" and line and not line[0].spaced and not line[1].spaced:
+        doubtful = before.text == "1" or (before.kind == "number" and isinstance(base, Name) and base.text in "eE")
+        if doubtful and line and not line[0].spaced and not line[1].spaced:  # 2^1/3, e^-9/8
             power, below = self._text(sign, before), line[1].text
             readings = f"^({power[1:]}/{below}) or (…{power})/{below}"
             raise self._error(f"{quoted(self._text(sign, line[1]))} may be {readings}; write brackets.", sign)

@@ -201,7 +201,10 @@ def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
         if first["type"] == "extra_forbidden":
-            raise ValueError(f"{where} is not a field of a grid{nearest(where, tuple(Grid.model_fields))}") from None
+            known = tuple(Grid.model_fields)
+            raise ValueError(
+                f"{where} is not a field of a grid{nearest(where, known)}; its fields are {', '.join(known)}"
+            ) from None
         raise ValueError(f"{where}: {says(first)}") from None
     if plain := grid.without_meaning():
         note(f"took {' and '.join(plain)}, with no reward and no end, for free cells")

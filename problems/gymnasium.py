@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any
+from warnings import catch_warnings
 
 from rldrill.problems.episodes import Outcome, model
 
@@ -69,7 +70,8 @@ def read_environment(data: Mapping[str, Any]) -> dict[str, Any]:
     except ImportError:
         raise ValueError("gymnasium is not installed; run 'pip install gymnasium'") from None
     try:
-        environment = gymnasium.make(str(data["gymnasium"]), **dict(data.get("options", {})))
+        with catch_warnings(action="ignore"):  # of versions that are out of date
+            environment = gymnasium.make(str(data["gymnasium"]), **dict(data.get("options", {})))
     except Exception as error:  # gymnasium and the environments raise whatever they like
         raise ValueError(f"gymnasium cannot make {data['gymnasium']!r}: {error}".partition("\n")[0]) from None
     table = getattr(environment.unwrapped, "P", None)

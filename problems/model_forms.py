@@ -1,6 +1,6 @@
 """The forms in which people have models, beside the list of transitions: each becomes that list."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from rldrill.problems import arrays, gymnasium
@@ -97,10 +97,11 @@ def read_form(data: object, note: Note) -> object:
         return read_grid(data, note)
     if "P" in data and "gymnasium" not in data:
         return _read_P(data, note)
-    for key, read in _FORMS.items():
-        if key in data:
-            return read(data)
-    return data
+    if "gymnasium" in data:
+        return gymnasium.read_environment(data)
+    if "rewards" in data:
+        return _read_rewards(data)
+    return _read_transitions(data, note) if "transitions" in data else data
 
 
 def _read_P(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
@@ -113,7 +114,7 @@ def _read_P(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     return model
 
 
-def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
+def _read_transitions(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     """Transitions as they are, as a table with a header, or of a process without actions.
 
     The rows of such a process are ``[state, next, probability, reward]``.
@@ -133,6 +134,8 @@ def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
                 f"transitions[{number}]: write {_ROW}; or [state, next, probability, reward] in every row of a "
                 "process without actions, whose ends are listed as terminal"
             )
+    if all(str(row[2]) in states for row in rows):  # [state, action, next, reward] would fit, too
+        note("took rows of four for [state, next, probability, reward], without actions; with actions, write all five")
     given["transitions"] = [[state, ALONE, after, chance, reward] for state, after, chance, reward in rows]
     return given
 
@@ -213,10 +216,3 @@ def _earned(paid: Mapping[str, Any], state: str, action: str) -> Any:
     if action not in reward:
         raise ValueError(f"rewards: that of {action!r} in {state!r} is missing; write 0 if it is none")
     return reward[action]
-
-
-_FORMS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
-    "gymnasium": gymnasium.read_environment,
-    "rewards": _read_rewards,
-    "transitions": _read_transitions,
-}

@@ -301,17 +301,27 @@ OpenDistributionField = Annotated[Hypotheses[OpenProbability], BeforeValidator(_
 
 
 def read_policy(value: object, info: ValidationInfo) -> object:
-    """Let a deterministic policy be written ``{cool = "fast"}``, and the equiprobable one ``uniform``."""
-    if isinstance(value, dict) or value not in UNIFORM:
+    """Let a policy be ``uniform``, and one that is the same in every state be written once: ``"fast"``.
+
+    One action is that of every state that has it; so are probabilities of actions: ``{fast = 0.5, slow = 0.5}``.
+    """
+    known = next((actions for name, field in info.data.items() if (actions := _choices(name, field))), None)
+    if not known or isinstance(value, list | tuple):
         return value
-    known = next((actions for field in info.data.values() if (actions := _choices(field))), None)
-    return value if known is None else _uniform(known)
+    if not isinstance(value, dict) and value in UNIFORM:
+        return _uniform(known)
+    named = {str(name) for name in value} if isinstance(value, dict) else {str(value)}
+    everywhere = named and not named & {*known} and all(named <= {*actions} for actions in known.values())
+    return dict.fromkeys(known, value) if everywhere else value
 
 
-def _choices(field: object) -> Mapping[str, Iterable[str]] | None:
-    """The actions of every state, by a field of a problem: a model, or action values."""
+def _choices(name: str, field: object) -> Mapping[str, Iterable[str]] | None:
+    """The actions of every state, by a field of a problem: a model, where actions lead, or action values."""
     if isinstance(field, Dynamics):
         return field.actions
+    if name == "motion" and isinstance(field, dict):
+        states = dict.fromkeys(state for row in field.values() for state in row)
+        return {state: [action for action, row in field.items() if state in row] for state in states}
     return field if isinstance(field, dict) and all(isinstance(row, dict) for row in field.values()) else None
 
 
@@ -326,6 +336,10 @@ PolicyField = Annotated[
         {"type": "object", "title": "a table: for every state its action, or the probabilities of its actions"}
     ),
 ]
+
+
+#: A policy that is certain of its action in every state.
+DeterministicField = Annotated[Named[Name], BeforeValidator(read_policy)]
 
 
 def equiprobable(model: Dynamics) -> dict[str, dict[str, Scalar]]:

@@ -54,9 +54,13 @@ class Trajectory(Givens):
     @model_validator(mode="after")
     def _consistent(self) -> "Trajectory":
         if len(self.rewards) != len(self.states) - 1:
+            between = len(self.states) - 1
+            cure = "add or take out some"
+            if len(self.rewards) == len(self.states):
+                cure = "add the state that the last reward leads to, such as the end"
             raise ValueError(
-                f"{len(self.states)} states need {len(self.states) - 1} rewards between them, not {len(self.rewards)}; "
-                "add or take out some"
+                f"{len(self.states)} states need {between} reward{'s' * (between != 1)} between them, not "
+                f"{len(self.rewards)}; {cure}"
             )
         if self.actions and len(self.actions) not in (len(self.rewards), len(self.states)):
             raise ValueError(f"{len(self.rewards)} rewards need as many actions, not {len(self.actions)}; give as many")

@@ -4,7 +4,7 @@ from itertools import islice
 from math import prod
 from typing import Annotated, Self
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
@@ -12,6 +12,7 @@ from rldrill.problems.exact import Discount, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import (
+    UNIFORM,
     DistributionField,
     Named,
     PolicyField,
@@ -30,6 +31,17 @@ SOURCE = "Sutton & Barto 2018, section 5.5"
 REVISION = 5
 
 
+def _read_behaviour(value: object, info: ValidationInfo) -> object:
+    """A behaviour policy, which is uniform only over actions that the target policy names."""
+    named = info.data.get("target") or {}
+    if isinstance(value, str) and value in UNIFORM and (few := [state for state, row in named.items() if len(row) < 2]):
+        raise ValueError(
+            f"{value!r} over which actions of {few[0]!r}? The target policy names one; write the probability of each, "
+            f"as in {{{few[0]} = {{a = '1/2', b = '1/2'}}}}"
+        )
+    return read_policy(value, info)
+
+
 class Given(Givens):
     """Episodes from one state, the policy b that acted, the policy π that is evaluated, and the discount."""
 
@@ -37,7 +49,7 @@ class Given(Givens):
         min_length=1, max_length=26, description="The episodes, all from the same state."
     )
     target: PolicyField = Field(description="The policy that is evaluated.")
-    behaviour: Annotated[Named[DistributionField], BeforeValidator(read_policy)] = Field(
+    behaviour: Annotated[Named[DistributionField], BeforeValidator(_read_behaviour)] = Field(
         description="The policy that acted."
     )
     gamma: Discount

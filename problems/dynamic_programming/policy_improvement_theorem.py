@@ -10,7 +10,15 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, Named, Transition, check_policy, check_state_values, model_blocks
+from rldrill.problems.models import (
+    DeterministicField,
+    Model,
+    Named,
+    Transition,
+    check_policy,
+    check_state_values,
+    model_blocks,
+)
 from rldrill.problems.parts import Part, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -32,8 +40,8 @@ class Given(Givens):
     """A model, two deterministic policies, the discount, and the first one's values, or None to ask for them."""
 
     mdp: Model = Field(description="The Markov decision process.")
-    policy: Named[Name] = Field(description="The action of the first policy in every state.")
-    other: Named[Name] = Field(description="The action of the other policy in every state.")
+    policy: DeterministicField = Field(description="The action of the first policy in every state.")
+    other: DeterministicField = Field(description="The action of the other policy in every state.")
     values: Named[Exact] | None = Field(
         default=None, description="The first policy's values; without them they are asked for first."
     )

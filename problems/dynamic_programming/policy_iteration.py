@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, Named, check_policy, model_blocks
+from rldrill.problems.models import DeterministicField, Model, check_policy, model_blocks
 from rldrill.problems.parts import Number, Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -46,7 +46,7 @@ class Started(Givens):
     """A model, the policy to start from, and the discount."""
 
     mdp: Model = Field(description="The Markov decision process.")
-    start: Named[Name] = Field(description="The action of the policy to start from in every state.")
+    start: DeterministicField = Field(description="The action of the policy to start from in every state.")
     gamma: Probability = Field(description="The discount.")
 
     @model_validator(mode="after")

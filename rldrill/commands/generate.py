@@ -18,6 +18,15 @@ NAME = "generate"
 _SHARD = re.compile(r"([0-9]{1,6})/([0-9]{1,6})")
 
 
+#: What to do instead of naming a single file, by its ending.
+_FILES = {
+    ".jsonl": "leave -o out and redirect to one file, as in > problems.jsonl",
+    ".json": "leave -o out and redirect to one file, as in > problems.jsonl",
+    ".parquet": "name a folder, and --format parquet",
+    ".csv": "CSV is not written; name a folder",
+}
+
+
 def command(
     names: Names = None,
     number: Annotated[int, typer.Option("--number", "-n", min=1, max=10**8, help="How many problems.")] = 10,
@@ -65,6 +74,10 @@ def command(
     index, shards = _shares(shard)
     if output is None and form == "parquet":
         raise UsageError("Parquet is written to a folder; name one with --output.")
+    if output is not None and output.suffix in _FILES and not output.is_dir():
+        raise UsageError(
+            f"{output}: -o names a folder, which gets a file for each family and level; {_FILES[output.suffix]}."
+        )
     chosen = announced_seed(seed)
     every = lots(names or (), level, number, chosen, Split(split))[index - 1 :: shards]
     about = {"names": list(names or ()), "number": number, "level": level, "seed": chosen, "format": form}

@@ -17,7 +17,11 @@ from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
-_LINE = re.compile(r"^\s*(?:\*\*)?\(?([a-z])[):.]+(?:\*\*)?\s*(.+?)\s*$", re.MULTILINE)
+#: (a) 3/4, perhaps in a list, bold, or in the tags that models are told to put around an answer.
+_LINE = re.compile(
+    r"^\s*(?:<answer>\s*)?(?:[-*•]\s+)?(?:\*\*)?(?:part\s+)?\(?([a-z])[):.]+(?:\*\*)?\s*(.+?)\s*(?:\*\*)?\s*(?:</answer>)?$",
+    re.MULTILINE | re.IGNORECASE,
+)
 
 
 @dataclass

@@ -19,6 +19,9 @@ _ZERO = re.compile(r"[-+]?(?:0+\.?0*|\.0+)")
 _NOTHING = re.compile(r"[-–—.·*_#xX/]*|none|null|nan|n/?a|end|terminal|exit|goal", re.IGNORECASE)
 _NUMERIC = re.compile(r"[-+]?[\d.]")
 _QUOTES = "'\""
+#: What parts an item from the next one, beside a comma: cool: fast and warm: slow.
+_AND = re.compile(r"(?:\s+(?:and|und)|\s*&)\s*$")
+_HEAD = re.compile(r"([^:=()\[\]{}]+?)\s*(?:(?::|=|->|→|↦)\s*|(?=[(\[{]))(?=\S)")
 _MOST = 200
 _FORMS = 30
 
@@ -67,11 +70,54 @@ def by_name(source: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
         Unreadable: a key is unknown or repeated, or a terminal state is given a value.
     """
     body = _bracketed(unwrapped(source)[0], asked)
-    items = _marked(body, asked)
+    items = _nested(body, asked) or _marked(body, asked)
     if items is not None:
         return _by_key(items, asked)
     found = _tabled(body, asked) or _spaced(body, asked)
     return {key: found[key] for key in asked.keys if key in found} if found else None
+
+
+def _nested(body: Source, asked: Asked[Key]) -> list[_Item] | None:
+    """The items under their states: ``cool: fast 3.5, slow 2.5; warm: slow 1``; or under their actions; else None."""
+    pairs = [key for key in asked.keys if not isinstance(key, str)]
+    pieces = [piece for piece in body.split(",;\n|") if piece.text] if pairs else []
+    if len(pieces) > asked.most:
+        return None
+    for outer in (0, 1):
+        inner: dict[str, list[str]] = {}
+        for key in pairs:
+            inner.setdefault(key[outer], []).append(key[1 - outer])
+        found: list[_Item | None] = []
+        names: Sequence[str] = ()
+        head = ""
+        for piece in pieces:
+            rest = piece
+            if (begun := _HEAD.match(piece.text)) and (hits := matches(begun[1], [(each, each) for each in inner])):
+                head, names, rest = hits[0], inner[hits[0]], piece.part(begun.end(), len(piece.text))
+            inside = rest.unwrapped() if begun else None
+            for each in inside.split(",;\n|") if inside else [rest]:
+                found.append(_under(head, each, names, outer))
+        whole = [item for item in found if item]
+        if pieces and len(whole) == len(found):
+            return whole
+    return None
+
+
+def _under(head: str, piece: Source, names: Sequence[str], outer: int) -> _Item | None:
+    """An item whose key has one half before a value and the other one, the head, before it all."""
+    words = _words(piece)[:3]
+    for count in range(len(words), 0, -1):
+        length = words[count - 1].start + len(words[count - 1].text) - piece.start
+        typed, rest = piece.text[:length], piece.text[length:]
+        if (mark := _ARROW.search(typed)) and mark.start():
+            typed, rest, length = typed[: mark.start()], piece.text[mark.end() :], mark.end()
+        hits = matches(typed.strip(), [(name, name) for name in names])
+        if hits and rest.strip() and not re.match(r"\s*-\s", rest):
+            gap = re.match(rf"\s*(?:{_ARROW.pattern})?\s*", rest)
+            value = piece.part(length + (gap.end() if gap else 0), len(piece.text))
+            key = (head, hits[0]) if outer == 0 else (hits[0], head)
+            return _Item(" ".join(key), value, piece) if value.text else None
+    return None
 
 
 def _bracketed(body: Source, asked: Asked[Key]) -> Source:
@@ -109,6 +155,7 @@ def _marks(piece: Source) -> int:
 def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
     """The items of a piece; a second key in it must be known: ``cool=3.5 warm=2.5``."""
     start, name, begun, forms = 0, "", 0, 0
+    alike: list[str] = []  # up = down = 3/8
     for index, _ in piece.outside():
         mark = _ARROW.match(piece.text, index)
         if mark is None or index < begun or (mark[0] == "←" and not asked.numbers):
@@ -119,18 +166,25 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
         if not name:
             start, name, begun = 0, before.strip(), mark.end()
             continue
-        split = _last_key(before, asked)
+        split, other = _last_key(before, asked), before.strip()
+        if split is None and mark[0] == "=" and not _NUMERIC.match(other) and len(keys_named(other, asked.keys)) == 1:
+            alike.append(name)
+            name, begun = other, mark.end()
+            continue
         forms = forms + 1 if split is None else 0
         if forms > _FORMS:
             raise piece.unreadable("It holds too many equal signs; write each value alone, once.")
         if split is not None:
             stop = begun + split
-            yield _Item(name, piece.part(begun, stop), piece.part(start, stop))
+            last = stop if (parted := _AND.search(piece.text[begun:stop])) is None else begun + parted.start()
+            for each in (*alike, name):
+                yield _Item(each, piece.part(begun, last), piece.part(start, last))
+            alike = []
             start, name, begun = stop, piece.text[stop:index].strip(), mark.end()
         elif mark[0] != "=" or (piece.text[begun - 1] in ":>→↦" and re.fullmatch(r"\s*[^\W\d]\w*", before)):
             raise piece.unreadable(f"{quoted(piece.text[start:])} holds two keys; put a comma between them.", begun)
-    if name:
-        yield _Item(name, piece.part(begun, len(piece.text)), piece.part(start, len(piece.text)))
+    for each in (*alike, name) if name else ():
+        yield _Item(each, piece.part(begun, len(piece.text)), piece.part(start, len(piece.text)))
 
 
 def _last_key(text: str, asked: Asked[Key]) -> int | None:

@@ -11,7 +11,8 @@ from rldrill.problems.spelling import Source, quoted
 _TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?\s*[Tt⊤]\s*\}?|ᵀ|\.T|\.?')$")
 _NOTHING = re.compile(r"[-–—?…]?")
 _FACTOR = re.compile(
-    r"(?P<factor>(?:[^()\[\],;|\s]|\((?:[^()\[\]]|\([^()\[\]]*\))+\))+?)\s*\*?\s*(?P<bracket>[\[(].*)", re.DOTALL
+    r"(?P<factor>(?:[^()\[\],;|\s]|\((?:[^()\[\]]|\([^()\[\]]*\))+\))+)(?<!\*)\s*\*?\s*(?P<bracket>[\[(].*)",
+    re.DOTALL,
 )
 _DIVIDED = re.compile(
     r"(?P<minus>-?)\s*(?P<bracket>[\[(].*[\])])\s*/\s*(?P<factor>[0-9.]+|√[0-9]+|[^\W\d_]+|\w*\([^()]*\))", re.DOTALL

@@ -248,9 +248,9 @@ def entry_named(label: str, names: Sequence[str], called: Sequence[str] = ()) ->
         called: what they are called, in words; the beginning of one is enough.
     """
     label = label.strip()
-    if _DEVIATION.match(label) and not any(name.startswith("σ") for name in names):
-        if (squared := _SQUARE.fullmatch(label)) is None:
-            return None  # a standard deviation
+    if is_deviation(label, names):
+        return None
+    if (squared := _SQUARE.fullmatch(label)) and not any(name.startswith("σ") for name in names):
         label = f"Σ{squared[1]}"
     for form in (_plain, _unmarked, _loose, lambda name: _loose(name).rstrip("0123456789")):
         hits = [index for index, name in enumerate(names) if form(name) in (_plain(label), _loose(label))]
@@ -258,6 +258,15 @@ def entry_named(label: str, names: Sequence[str], called: Sequence[str] = ()) ->
             return hits[0]
     begun = [index for index, word in enumerate(called) if word.startswith(label.casefold())]
     return begun[0] if len(begun) == 1 else None
+
+
+def is_deviation(label: str, names: Sequence[str]) -> bool:
+    """Whether a label is that of a standard deviation, where variances are asked for."""
+    label = label.strip()
+    named = _DEVIATION.match(label) and not _SQUARE.fullmatch(label)
+    return (
+        bool(named) and not any(name.startswith("σ") for name in names) and any(name.startswith("Σ") for name in names)
+    )
 
 
 def _loose(name: str) -> str:

@@ -26,6 +26,7 @@ from rldrill.solutions.answers.names import (
     MARKS,
     Key,
     entry_named,
+    is_deviation,
     listed,
     matches,
     options_named,
@@ -59,20 +60,31 @@ _LABEL = re.compile(rf"(['\"]?)({_NAME})\1\s*(?:[:←]|=(?!=))")
 _LEFT_SIDE = re.compile(rf"(?:{_NAME})?=(?!=)")
 _ONLY_NAME = re.compile(_NAME)
 _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)|∂[^\s=:,;]*\s*=(?!=)")
-_YES = frozenset({"yes", "y", "true", "t", "ja", "j"})
-_NO = frozenset({"no", "n", "false", "f", "nein"})
+_YES = frozenset({"yes", "yep", "y", "true", "t", "ja", "j", "oui", "sí", "sì", "si", "sim"})
+_NO = frozenset({"no", "nope", "n", "false", "f", "nein", "non", "não"})
 #: What parts yes or no from the reason for it.
-_WHY = re.compile(r"\s*[,;:.(–—]\s*|\s+(?:-|because|since|as)\s+")
+_WHY = re.compile(r"\s*[,;:.(–—]\s*|\s+(?:-|as)\s+")
+#: The reason behind an answer: left, because it earns more.
+_BECAUSE = re.compile(r"[\s,;:.(–—-]+(?:because|since|weil)\b.*", re.DOTALL | re.IGNORECASE)
+#: A comparison in brackets behind a word.
+_COMPARED = re.compile(r"(?<=\w)\s*\([^()]*[<>=≤≥≠][^()]*\)$")
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
 _RELATION = re.compile(r"[<>!]=|=[<>]|[≤≥≠]")
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _BARS = re.compile(r"\|([^\s|](?:[^|\n]*[^\s|])?)\|")  # a cell of a table has spaces at its edges
+#: A normal distribution, by its mean and variance: N(5, 6).
+_NORMAL = re.compile(r"(?:[^=~∼]*[=~∼])?\s*N\s*(?=[(\[])", re.DOTALL)
+_BY_MEAN = ("mean",)
+#: Odds: 2:15.
+_ODDS = re.compile(r"\s*([0-9./]+)\s*:\s*([0-9./]+)\s*")
 #: What is said before a number: R_0: 1/4, answer: 1/4, the answer is 1/4.
 _SAID_FIRST = re.compile(
     r"(?:the\s+)?(?:answer|result|solution)\s+is\s+(?=\S)|[^\W\d][^:=\n]{0,30}:\s*(?=[^\s:=])", re.IGNORECASE
 )
+#: In brackets a sign that touches what follows begins an entry: [1 -1].
+_SIGNED_ENTRY = re.compile(r"[\w)]\s+[-+](?=[\w(√])")
 _ENTRIES = 200
 _FORMS = 30
 _NUMBER_FIRST = re.compile(r"[-+]?[0-9][0-9./]*\s+([A-Za-z]{2,})(?![\w({\[])")
@@ -89,7 +101,9 @@ def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGES
     Raises:
         Unreadable: it is not one number.
     """
-    reading = plain(text) or _number(_unsaid(clean(text, longest)), parameters, Arithmetic())
+    if odds := _ODDS.fullmatch(text):
+        text = f"({odds[1]})/({odds[2]})"
+    reading = plain(text) or _number(_unsaid(_without_reason(clean(text, longest))), parameters, Arithmetic())
     bars = _BARS.fullmatch(text.strip())
     if bars and (parameters_of(reading.value) or sign(reading.value) < 0):
         raise Unreadable(
@@ -124,6 +138,8 @@ def read_vector(
     if length == 1:
         return (read_number(text.rstrip(" ,;"), parameters, longest),)
     source = clean(text, longest)
+    if called[:1] == _BY_MEAN and (normal := _NORMAL.match(source.text)):
+        source = source.part(normal.end(), len(source.text))
 
     def vector(member: Source) -> tuple[Reading | None, ...]:
         return _vector(member, length, parameters, names, called)
@@ -319,6 +335,7 @@ def read_words(
         Unreadable: a state is unknown or repeated, or its action is not allowed.
     """
     source = clean(text, longest)
+    source = _without_reason(source) if len(keys) == 1 else source
     asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
     found = by_name(source, asked)
     if found is None:
@@ -362,8 +379,10 @@ def _line_words(line: Source, allowed: Collection[Sequence[str]]) -> list[Source
 
 
 def _last_form(source: Source) -> Source:
-    """What stands behind the last equal sign: the action in ``arg max {1; 2} = fast``."""
-    return source.split("=")[-1]
+    """What stands behind the last equal sign, without its reason: the action in ``arg max {1; 2} = fast (2 > 1)``."""
+    source = _without_reason(source)
+    compared = _COMPARED.search(source.text)
+    return (source.part(0, compared.start()) if compared else source).split("=")[-1]
 
 
 def read_choice(text: str, options: Mapping[str, str]) -> str:
@@ -379,7 +398,8 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     Raises:
         Unreadable: no option fits, or several do.
     """
-    source = clean(text)
+    source = _without_reason(clean(text))
+    source = source.unwrapped("[") or source
     typed = _flattened(unquoted(source.text))
     spellings = [(_flattened(told), letter) for letter, told in options.items()]
     typed = _SAID.sub("", typed)
@@ -390,6 +410,9 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
             return lettered[0]
         if told:
             raise source.unreadable(f"{quoted(typed)} has the letter of one option and words of another; type one.")
+    first, *why = _WHY.split(typed, maxsplit=1)
+    if why and _lettered(first, options) and not any(re.search(rf"\b{letter}\b", why[0]) for letter in options):
+        typed = first  # A, lower BIC
     alone = re.fullmatch(r"\(?([A-Za-z])[).:]?", typed)
     lettered = _lettered(alone[1], options) if alone else []
     marked = bool(lettered) and len(typed) > 1  # (b) is no text
@@ -433,11 +456,17 @@ def read_yes_no(text: str) -> bool:
         Unreadable: it is neither.
     """
     source = clean(text)
-    said, *why = _WHY.split(unquoted(source.text).casefold().rstrip(".!"), maxsplit=1)
+    said, *why = _WHY.split(unquoted(_without_reason(source).text).casefold().rstrip(".!"), maxsplit=1)
     reason = "".join(why)
     if said in _YES | _NO and not (_YES | _NO) & {reason.strip(" )"), *re.findall(r"\w{2,}", reason)}:
         return said in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
+
+
+def _without_reason(source: Source) -> Source:
+    """An answer without the words that say why."""
+    said = _BECAUSE.search(source.text)
+    return source.part(0, said.start()) if said else source
 
 
 def _unsaid(source: Source) -> Source:
@@ -467,6 +496,10 @@ def _unlabelled(entries: list[Source], names: Sequence[str], called: Sequence[st
         for entry, label in zip(entries, labels, strict=True)
     ]
     found = [(label[2].strip(), entry_named(label[2], names, called)) for label in labels if label]
+    if deviation := next((name for name, index in found if index is None and is_deviation(name, names)), ""):
+        raise entries[0].unreadable(
+            f"{quoted(deviation)} is a standard deviation; give the variance, σ² = …, or Σ = … ."
+        )
     meant = [index for _, index in found if index is not None]
     unknown = [name for name, index in found if index is None]
     if all(labels) and unknown and (meant or sorted(unknown, key=_naturally) != unknown):
@@ -567,7 +600,10 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
     if (reading := plain(source.text)) is not None:
         return reading
     for _ in range(2):  # a matrix of one number, too
-        source = source.unwrapped("[") or source
+        inside = source.unwrapped("[")
+        if inside and _SIGNED_ENTRY.search(inside.text):
+            raise source.unreadable(f"{quoted(source.text)} holds several entries; one number is needed here.")
+        source = inside or source
     source = source.replaced(_ROUNDED, lambda match: f"{match[0]}.")
     _refuse_relations(source)
     signs = [index for index, sign in source.outside() if sign in "=≈←"]

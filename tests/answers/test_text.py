@@ -434,10 +434,17 @@ def test_the_square_of_a_deviation_is_a_variance(text: str) -> None:
     assert [entry.value for entry in read_vector(text, 2, **MOMENTS)] == [5, 3]
 
 
-@pytest.mark.parametrize("text", ["mean 5, σ = 3", "μ = 5, sigma = 3", "σ = 3, mean = 5"])
+@pytest.mark.parametrize("text", ["mean 5, σ = 3", "μ = 5, sigma = 3", "σ = 3, mean = 5", "5, σ = 3", "N(5, σ=3)"])
 def test_a_deviation_is_no_variance(text: str) -> None:
-    with pytest.raises(Unreadable, match="is not asked for here"):
+    with pytest.raises(Unreadable, match="is a standard deviation; give the variance"):
         read_vector(text, 2, **MOMENTS)
+
+
+@pytest.mark.parametrize(
+    "text", ["N(5, 3)", "𝒩(5, 3)", "\\mathcal{N}(5, 3)", "N(μ=5, σ²=3)", "x ~ N(5, 3)", "bel = N(5; 3)"]
+)
+def test_a_normal_distribution_tells_mean_and_variance(text: str) -> None:
+    assert [entry.value for entry in read_vector(text, 2, **MOMENTS)] == [5, 3]
 
 
 def test_a_line_has_a_slope_and_an_intercept() -> None:
@@ -548,6 +555,21 @@ def test_an_action_that_is_a_number_may_have_a_letter_or_word_before_it(text):
     assert "is not one of 1, 3" in refusal(read_words, text, ["next"], {"next": ("1", "3")}).message
 
 
+def test_a_factor_with_brackets_and_letters_counts_for_every_entry() -> None:
+    rho = generator("rho")
+    for text in ("3/(3+2ρ) [1 -1]", "3/(3+2ρ) * [1, -1]", "L = 3/(3+2ρ)[1 -1]"):
+        assert read_matrix(text, (1, 2), ["rho"])[0][0].value == 3 / (3 + 2 * rho)
+        assert [entry.value for entry in read_matrix(text, (1, 2), ["rho"])[0]] == [
+            3 / (3 + 2 * rho),
+            -3 / (3 + 2 * rho),
+        ]
+
+
+@pytest.mark.parametrize("text", ["[1 -1]", "[2 +1/3]", "[4 -√2]"])
+def test_several_entries_in_brackets_are_no_difference(text: str) -> None:
+    assert "holds several entries; one number is needed here" in refusal(read_number, text).message
+
+
 @pytest.mark.parametrize("text", ["[1, ?; 3, 4]", "[[1, …], [3, 4]]", "1 ?\n3 4", "1/2 [2 -; 6 8]"])
 def test_entries_of_a_matrix_may_be_left_out(text):
     assert [[cell and cell.value for cell in row] for row in read_matrix(text, (2, 2))] == [[1, None], [3, 4]]
@@ -593,6 +615,38 @@ PAIRED = [
     "cool, fast: 1, cool, slow: 2, warm, slow: 3",
     "{('cool', 'fast'): 1, ('cool', 'slow'): 2, ('warm', 'slow'): 3}",
 ]
+
+
+NESTED = [
+    "cool: fast 1, slow -2; warm: slow 3/4",
+    "cool: fast: 1, slow: -2, warm: slow: 3/4",
+    "cool (fast 1, slow -2), warm (slow 3/4)",
+    "cool: fast = 1, slow = -2; warm: slow = 0.75",
+    "cool → fast → 1, slow → -2; warm → slow → 3/4",
+    "fast: cool 1; slow: cool −2, warm 3/4",
+    "warm: slow 3/4; cool: slow -2, fast 1/2 + 1/2 = 1",
+    "cool: fast 1; slow -2\nwarm: slow 3/4",
+]
+
+
+@pytest.mark.parametrize("text", NESTED)
+def test_pairs_may_stand_under_one_of_their_halves(text: str) -> None:
+    assert {pair: reading.value for pair, reading in read_table(text, PAIRS).items()} == {
+        ("cool", "fast"): 1, ("cool", "slow"): -2, ("warm", "slow"): fmpq(3, 4)
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("text", ["cool: fast 1, slow - 2; warm: slow 3/4", "cool: fast 1,5, slow 2; warm: slow 3"])
+def test_what_may_be_read_otherwise_does_not_stand_under_its_half(text: str) -> None:
+    assert refusal(read_table, text, PAIRS).message
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["cool = warm = 3", "V(cool) = V(warm) = 3", "cool = warm = 6/2 = 3", "cool=3 and warm=3", "cool: 3 & warm: 3"],
+)
+def test_keys_of_one_value_may_share_it(text: str) -> None:
+    assert {key: reading.value for key, reading in read_table(text, ["cool", "warm"]).items()} == {"cool": 3, "warm": 3}
 
 
 @pytest.mark.parametrize("text", PAIRED)
@@ -786,8 +840,8 @@ def test_choices_refused():
 
 
 def test_yes_and_no():
-    assert all(map(read_yes_no, ["yes", "Y", "True", "ja.", " YES! "]))
-    assert not any(map(read_yes_no, ["no", "N", "false", "Nein"]))
+    assert all(map(read_yes_no, ["yes", "Y", "True", "ja.", " YES! ", "oui", "sí", "sim", "yep"]))
+    assert not any(map(read_yes_no, ["no", "N", "false", "Nein", "nope", "non", "não"]))
     assert "'maybe' is neither yes nor no" in refusal(read_yes_no, "maybe").message
 
 
@@ -804,6 +858,35 @@ def test_yes_or_no_may_have_its_reason(why: str) -> None:
 )
 def test_what_is_no_plain_yes_or_no(text: str) -> None:
     assert "is neither yes nor no; type one of them." in refusal(read_yes_no, text).message
+
+
+def test_a_reason_may_stand_behind_any_answer() -> None:
+    options = {"A": "large", "B": "small"}
+    for why in (
+        " because B is worse",
+        ", since 11 < 18",
+        " weil B größer ist",
+        ", lower BIC",
+        " (lower BIC)",
+        ": 11 < 18",
+    ):
+        assert read_choice(f"A{why}", options) == "A"
+    assert read_choice('["A"]', options) == read_choice("large because 11 < 18", options) == "A"
+    assert read_number("2.5 because γ = 1/2").value == fmpq(5, 2)
+    assert read_yes_no("yes, since no action is better")
+    words = read_words("cool: fast (12 > 9), warm: slow because 6 > 1", ["cool", "warm"], ACTIONS)
+    assert words == {"cool": ("fast",), "warm": ("slow",)}
+    assert read_words("cool: fast and warm: slow", ["cool", "warm"], ACTIONS) == words
+    assert read_words("fast, since 5 > 4", ["cool"], {"cool": ("fast", "slow")}) == {"cool": ("fast",)}
+
+
+@pytest.mark.parametrize("text", ["A, B", "A or B", "A, not B", "A (B)"])
+def test_two_letters_are_no_option_and_its_reason(text: str) -> None:
+    assert "is not one of the options" in refusal(read_choice, text, {"A": "large", "B": "small"}).message
+
+
+def test_odds_are_a_quotient() -> None:
+    assert read_number("2:15").value == read_number("1 : 7.5").value == fmpq(2, 15)
 
 
 READERS = [
@@ -1105,7 +1188,7 @@ def test_what_is_said_before_a_number_is_left_out(text):
     assert read_number(text).value == fmpq(1, 4)
 
 
-@pytest.mark.parametrize("text", ["1:4", "2 V: 1/4", "a: b: 1/4"])
+@pytest.mark.parametrize("text", ["1:4:2", "2 V: 1/4", "a: b: 1/4"])
 def test_a_colon_elsewhere_is_not_understood(text):
     assert "':'" in refusal(read_number, text).message
 

@@ -126,6 +126,8 @@ def test_parquet_holds_the_same_records(tmp_path: Path, whole: Path) -> None:
         (("--shard", "3/2"), "--shard 3/2 is not a share; write 3/16 for the third of sixteen."),
         (("--with", "answer"), "--with answer is not known; it takes answers, working, hints, latex, mistakes"),
         (("--format", "parquet"), "Parquet is written to a folder; name one with --output."),
+        (("-o", "all.parquet"), "all.parquet: -o names a folder, which gets a file for each family and level"),
+        (("-o", "all.jsonl"), "leave -o out and redirect to one file, as in > problems.jsonl"),
         (("--dask", "nowhere"), "No scheduler of dask answers at nowhere"),
     ],
 )

@@ -40,3 +40,12 @@ def test_what_does_not_exist_is_refused() -> None:
         reasoning_gym.create_dataset("rldrill", names=("no-such",))
     with pytest.raises(AssertionError, match="neither train nor held-out"):
         reasoning_gym.create_dataset("rldrill", split="tests")
+
+
+def test_answers_may_be_set_as_models_set_them() -> None:
+    dataset = reasoning_gym.create_dataset("rldrill", names=("return",), level=1, seed=3, size=1)
+    first, second = (line.partition(" ")[2] for line in dataset[0]["answer"].splitlines())
+    for form in ("**({}) {}**", "- ({}) {}", "Part ({}): {}", "**({})** {}", "({}) $\\boxed{{{}}}$", "{}. {}"):
+        text = "\n".join(form.format(label, value) for label, value in (("a", first), ("b", second)))
+        assert dataset.score_answer(text, dataset[0]) == 1, text
+    assert dataset.score_answer(f"<answer>{dataset[0]['answer']}</answer>", dataset[0]) == 1

@@ -64,11 +64,11 @@ def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], 
         ("rbf", {"position": [0, 1], "centres": [0, 1], "sigma": 1}, "given"),
         # one task of curvature 1 and optimum 3, or two
         ("maml-step", {"theta": 0, "alpha": 1, "beta": 1, "tasks": [1, 3]},
-         "given.tasks[1]: must be a list, with the entries of one task"),
+         "given.tasks[1]: must be a list, [curvature, optimum]"),
         ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": [0, 2]},
          "given.asked[1]: must be a list of 2 entries, in brackets of its own (and "),
         ("n-step-return", {"trajectory": RUN, "values": {"a": 0, "b": 0}, "gamma": 1, "asked": 2},
-         "given.asked: must be a list, in which each entry is a list of 2."),
+         "given.asked: must be a list, in which each entry is a list of 2 entries."),
         ("bic", {"criterion": "AICc", "fitted": {}}, "given.criterion: 'AICc' is not possible here"),
     ],
 )  # fmt: skip
@@ -91,3 +91,54 @@ def test_the_letters_of_a_state_may_have_their_index_without_a_sign() -> None:
     given = {"dynamics": {"x1": "x_2", "x₂": "-4 x1 + x₁*x2 + u1"}, "state": {"x_1": 1, "x2": 2}, "action": {"u1": 0}}
     answers = rldrill.read({"family": "linearise", "given": given}).answers()
     assert answers == {"a": ((0, 1), (-2, 1)), "b": ((0,), (1,))}
+
+
+#: Two states; going earns 5 and 2, staying 1 and 0; γ = 1/2.
+TWO = {
+    "transitions": [["A", "go", "B", 1, 5], ["A", "stay", "A", 1, 1], ["B", "go", "A", 1, 2], ["B", "stay", "B", 1, 0]]
+}
+
+
+@pytest.mark.parametrize(
+    ("policy", "values"),
+    [
+        # V(A) = 5 + V(B)/2, V(B) = 2 + V(A)/2: 8 and 6
+        ("go", (8, 6)),
+        ({"go": 1}, (8, 6)),
+        # V(A) = (5 + V(B)/2 + 1 + V(A)/2)/2, V(B) = (2 + V(A)/2 + V(B)/2)/2: 5 and 3
+        ({"go": 0.5, "stay": "1/2"}, (5, 3)),
+        ("uniform", (5, 3)),
+    ],
+)
+def test_a_policy_that_is_the_same_everywhere_may_be_written_once(policy: Any, values: tuple[int, int]) -> None:
+    problem = {"family": "policy-value", "given": {"mdp": TWO, "gamma": 0.5, "policy": policy}}
+    assert rldrill.read(problem).answers() == {"a": dict(zip("AB", values, strict=True))}
+
+
+def test_the_policy_to_start_from_may_be_one_action() -> None:
+    given = {"mdp": TWO, "gamma": 0.5, "start": "go", "rounds": 1}
+    assert rldrill.read({"family": "policy-iteration", "given": given}).answers()["a"] == {"A": 8, "B": 6}
+
+
+@pytest.mark.parametrize("policy", ["fly", {"go": 1, "A": "go"}, {"fly": 1}, ["go", "stay"]])
+def test_a_policy_of_something_else_is_refused(policy: Any) -> None:
+    with pytest.raises(FileError):
+        family("policy-value").read({"mdp": TWO, "gamma": 0.5, "policy": policy})
+
+
+def test_an_equiprobable_policy_is_not_one_over_the_actions_that_another_takes() -> None:
+    run = {"states": ["s", "end"], "actions": ["left"], "rewards": [1], "terminal": ["end"]}
+    given = {"episodes": [run], "target": {"s": "left"}, "behaviour": "random", "gamma": 1}
+    with pytest.raises(FileError, match=r"given.behaviour: 'random' over which actions of 's'\?"):
+        family("importance-sampling").read(given)
+    # b takes left with 1/2, π always: ρ = 2
+    target = {"s": {"left": 1, "right": 0}}
+    problem = rldrill.read({"family": "importance-sampling", "given": given | {"target": target}})
+    assert problem.answers()["a"] == 2
+
+
+def test_the_cost_at_the_horizon_by_its_other_names() -> None:
+    """Q = 0 and Q_T = 1: S₂ = 1, L₁ = 1/2, S₁ = 1/2, L₀ = (1/2)/(3/2) = 1/3."""
+    given = {"A": 1, "B": 1, "Q": 0, "Qf": 1, "R": 1, "start": 1, "horizon": 2}
+    answers = rldrill.read({"family": "lqr-backward", "given": given}).answers()
+    assert (answers["a"], answers["c"]) == (((Fraction(1, 2),),), ((Fraction(1, 3),),))

@@ -347,3 +347,15 @@ def test_it_is_told_how_arrays_are_read_whose_order_cannot_be_seen(P: object, to
     notes: list[str] = []
     read_form({"P": P, "R": [0, 1]}, notes.append)
     assert notes == told
+
+
+def test_rows_of_numbers_that_could_be_another_process_are_told() -> None:
+    told: list[str] = []
+    rows = [[0, 0, 0, 0], [0, 1, 1, 5], [1, 0, 0, 0], [1, 1, 1, 0]]  # or [state, action, next, reward]
+    read_form({"transitions": rows}, told.append)
+    assert told == [
+        "took rows of four for [state, next, probability, reward], without actions; with actions, write all five"
+    ]
+    told.clear()
+    read_form({"transitions": [["a", "b", 0.5, 1], ["a", "a", 0.5, 0], ["b", "a", 1, 0]]}, told.append)
+    assert told == []
