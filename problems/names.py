@@ -1,6 +1,7 @@
 """What may be the name of a state, an action or a hypothesis."""
 
 import re
+import unicodedata
 from functools import lru_cache
 
 _LONGEST = 40
@@ -23,7 +24,7 @@ def read_name(value: object) -> object:
         return str(value)
     if not isinstance(value, str):
         return value
-    return _checked(value)
+    return _checked(unicodedata.normalize("NFC", value))
 
 
 @lru_cache(maxsize=1024)

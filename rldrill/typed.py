@@ -54,7 +54,8 @@ def _scalar(value: object, what: str) -> str:
         case bool():
             return str(value).lower()
         case str():
-            return f"({value})" if _PARTING.search(value) else value  # one entry must not be read as several
+            whole = value[:1] == "(" and value[-1:] == ")"
+            return f"({value})" if _PARTING.search(value) and not whole else value  # it must not be read as several
         case Rational():
             return str(value)
         case float() | Decimal() if math.isfinite(value):

@@ -1,6 +1,7 @@
 """From a typed answer to a verdict that says what is wrong and why."""
 
 import re
+import unicodedata
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
@@ -24,8 +25,8 @@ _ROOM = 4
 #: So many of the entries that were left out are named.
 _NAMED = 3
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
-#: A line of a working that says what it works out: the head of the name, V of V(s) = 2.
-_NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)[^=:≈\n]*+[=:≈]")
+#: A line of a working that says what it works out: the head of the name and its index, R and 0 of R_0^(2) = 2.
+_NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)(?:_?\{?([0-9]+))?[^=:≈\n]*+[=:≈]")
 
 
 class Outcome(Enum):
@@ -138,14 +139,19 @@ def _refuse_other_quantity(text: str, ask: str) -> None:
     Raises:
         Unreadable: so it is.
     """
-    *earlier, last = [_NAMED_LINE.match(line) for line in text.strip().split("\n")]
-    asked = [line[1] for line in earlier if line and _is_named(line[1], ask)]
-    if asked and last and not _is_named(last[1], ask):
-        raise Unreadable(f"The last line gives {last[1]}, but {asked[-1]} is asked for; type its value alone.")
+    lines = unicodedata.normalize("NFKC", text).strip().split("\n")  # R₀ is R0
+    *earlier, last = [_NAMED_LINE.match(line) for line in lines]
+    asked = [line for line in earlier if line and _is_named(line, ask)]
+    if asked and last and not _is_named(last, ask):
+        other, wanted = ("".join(filter(None, line.groups())) for line in (last, asked[-1]))
+        raise Unreadable(f"The last line gives {other}, but {wanted} is asked for; type its value alone.")
 
 
-def _is_named(name: str, ask: str) -> bool:
-    return re.search(rf"(?<![^\W_]){re.escape(GREEK.get(name, name))}(?![^\W_])", ask) is not None
+def _is_named(line: re.Match[str], ask: str) -> bool:
+    """Whether what a line works out is named in a question: with its index, if both have one."""
+    name = re.escape(GREEK.get(line[1], line[1]))
+    index = r"(?![^\W_])" if line[2] is None else rf"(?:_?\{{?{line[2]}(?![0-9])|(?!_?\{{?[0-9])(?![^\W_]))"
+    return re.search(rf"(?<![^\W_]){name}{index}", ask) is not None
 
 
 def part_of(solution: Solution, label: str) -> Part:
@@ -281,8 +287,10 @@ def _is_close(cell: Cell, key: Value) -> bool:
 
 
 def _is_cut_off(cell: Cell, key: Value) -> bool:
-    """Whether a decimal has the key's first three digits, where the third one had to be rounded up."""
+    """Whether a decimal is the key's first three digits, where the third one had to be rounded up."""
     if not isinstance(cell, Reading) or len(re.sub("[^0-9]", "", cell.echo).lstrip("0")) < DIGITS:
+        return False
+    if not is_rational(cell.value) or (cell.value / (2 * tolerance(key))).q != 1:
         return False
     behind = absolute(key) - absolute(cell.value)
     return sign(cell.value) == sign(key) and sign(behind) > 0 and sign(2 * tolerance(key) - behind) > 0

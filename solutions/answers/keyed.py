@@ -22,6 +22,8 @@ _QUOTES = "'\""
 #: What parts an item from the next one, beside a comma: cool: fast and warm: slow.
 _AND = re.compile(r"(?:\s+(?:and|und)|\s*&)\s*$")
 _HEAD = re.compile(r"([^:=()\[\]{}]+?)\s*(?:(?::|=|->|→|↦)\s*|(?=[(\[{]))(?=\S)")
+#: A number behind one of these is part of a working, not the name of what is typed next.
+_OPERATORS = tuple("+-*/^(·=")
 _MOST = 200
 _FORMS = 30
 
@@ -161,7 +163,8 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
         if mark is None or index < begun or (mark[0] == "←" and not asked.numbers):
             continue
         before = piece.text[begun:index].rstrip()
-        if not re.search(r"\w", before) or (mark[0] in ("→", "->") and not piece.text[mark.end() :].strip()):
+        named = re.search(r"\w", before) or (before.strip() and _known(before.strip(), asked))
+        if not named or (mark[0] in ("→", "->") and not piece.text[mark.end() :].strip()):
             continue  # an arrow that is an action
         if not name:
             start, name, begun = 0, before.strip(), mark.end()
@@ -190,7 +193,7 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
 def _last_key(text: str, asked: Asked[Key]) -> int | None:
     """Where a key begins that a text ends in, with something before it."""
     words = _words(Source(text))
-    starts = [word.start for word in words[1:]][-4:]
+    starts = [word.start for word in words[1:] if text[: word.start].rstrip()[-1:] not in _OPERATORS][-4:]
     names = [key if isinstance(key, str) else " ".join(key) for key in asked.keys]
     for start in starts:
         if matches(text[start:], [(name, name) for name in (*names, *asked.ends)]):
@@ -368,7 +371,7 @@ def in_order(rows: Sequence[Sequence[Source]], source: Source, asked: Asked[Key]
     flat = [entry for row in rows for entry in row]
     cells = _grid(keys, ends)
     if cells and len(rows) == len({place[0] for place in cells}) > 1:
-        return _grid_placed(rows, cells, asked)
+        return _grid_placed(rows, source, cells, asked)
     if len(flat) == len(keys):
         _check_rows(rows, source, keys)
         return dict(zip(keys, flat, strict=True))
@@ -431,7 +434,7 @@ def _natural_order(keys: Sequence[Key], ends: Sequence[str]) -> list[str] | None
 
 
 def _grid_placed(
-    rows: Sequence[Sequence[Source]], cells: dict[tuple[int, int], str], asked: Asked[Key]
+    rows: Sequence[Sequence[Source]], source: Source, cells: dict[tuple[int, int], str], asked: Asked[Key]
 ) -> dict[Key, Source]:
     """Each row is a whole row of the grid, or leaves out the walls, or the terminal states too."""
     width = max(column for _, column in cells)
@@ -445,7 +448,7 @@ def _grid_placed(
             wanted = acting if len(entries) == len(acting) else inside
             placed = dict(zip(wanted.values(), entries, strict=True))
         else:
-            raise entries[0].unreadable(
+            raise (entries[0] if entries else source).unreadable(
                 f"Row {down} of the grid has {len(entries)} entries; write {width}, one for each cell."
             )
         for name, entry in placed.items():
@@ -462,7 +465,7 @@ def _walled(flat: Sequence[Source], cells: dict[tuple[int, int], str], asked: As
         return None
     rows = [flat[start : start + width] for start in range(0, len(flat), width)]
     present = sorted({row for row, _ in cells})
-    return _grid_placed([rows[row - 1] for row in present], cells, asked)
+    return _grid_placed([rows[row - 1] for row in present], flat[0], cells, asked)
 
 
 def _check_end(entry: Source, end: str, asked: Asked[Key]) -> None:

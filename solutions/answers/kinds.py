@@ -1,5 +1,6 @@
 """The kinds of answer: how each is read, written, taken apart into cells, and tested with samples."""
 
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Any, Generic, TypeAlias, TypeVar
@@ -274,6 +275,10 @@ class ValuesAnswer(Answer[parts.Values]):
         return f"one value for each: {self._name(self.kind.keys[0])}: 3/4, …"
 
 
+#: What a single choice is called, before it; nothing that rules it out: a != blue, not: blue.
+_CALLED = re.compile(r"(?:(?!\b(?:not|no|but|except|never|nicht)\b)[^=:!<>≠≤≥~])*[=:](?!=)", re.IGNORECASE)
+
+
 class PolicyAnswer(Answer[parts.Policy]):
     """An action for every state; the value holds all best actions, and any of them is right."""
 
@@ -285,9 +290,10 @@ class PolicyAnswer(Answer[parts.Policy]):
         try:
             return dict(read_words(text, *asked))
         except Unreadable:
-            _, sign, chosen = text.replace(":", "=").partition("=")
-            if self.kind.of or not sign:
+            called = _CALLED.match(text)
+            if self.kind.of or called is None:
                 raise
+            chosen = text[called.end() :]
         return dict(read_words(chosen, *asked))  # whatever the choice is called: a₇ = blue
 
     def value(self, cells: Mapping[str, Any]) -> Any:

@@ -119,13 +119,13 @@ def _spread(name: str) -> str:
 
 def _spellings(keys: Sequence[Key]) -> list[tuple[str, Key]]:
     """How each key is typed; of pairs that have one half in common, or one for each state, the other half is enough."""
-    spellings = [(key if isinstance(key, str) else " ".join(key), key) for key in keys]
+    spellings = [(key if isinstance(key, str) else _spread(" ".join(key)), key) for key in keys]
     pairs = [key for key in keys if not isinstance(key, str)]
     for half in (0, 1):
         if len({key[1 - half] for key in pairs}) == 1 or (
             half == 0 and len({state for state, _ in pairs}) == len(pairs)
         ):
-            spellings += [(key[half], key) for key in pairs]
+            spellings += [(_spread(key[half]), key) for key in pairs]
     return spellings
 
 
@@ -181,10 +181,10 @@ def the_options(word: Source, place: str, allowed: Sequence[str]) -> tuple[str, 
     Raises:
         Unreadable: one is not allowed, or may be several.
     """
-    hits = options_named(word.text, allowed)
+    inside = word.unwrapped() or word
+    hits = options_named(word.text, allowed) or options_named(inside.text, allowed)
     if len(hits) == 1:
         return (hits[0],)
-    inside = word.unwrapped() or word
     several = [piece for piece in _ALTERNATIVES.split(inside.text) if piece]
     each = [options_named(piece, allowed) for piece in several]
     if (len(several) > 1 or inside is not word) and each and all(len(found) == 1 for found in each):

@@ -5,7 +5,7 @@ brackets of several lines, and numbers that are longer than a line, are put toge
 """
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 
 from rldrill.problems.expressions import GREEK
 from rldrill.problems.spelling import Unreadable
@@ -55,6 +55,7 @@ _FOLLOWS = re.compile(r"\n\s*(?=[=≈])(?!==)")
 _HEADER = re.compile(r"\A\s*(?:\d+(?:×\d+|-element) [^\n:]*:[^\S\n]*(?=\n)|\[1\](?=\s+[-+.\d]))")
 _FOOTER = re.compile(r"\n(?:Name: [^\n]*?)?(?:dtype|Length): [^\n]*\Z")
 _ITEM = re.compile(r"[^\S\n]*(?:([-–+*•‣◦])|([0-9]{1,2}|[a-z])([.)])|\(([0-9]{1,2}|[a-z])\))[^\S\n]+(?=\S)")
+_LABELLED = re.compile(r"^(\s*)\(?([0-9]{1,2}|[a-z])\)", re.MULTILINE)
 _SIGNED, _SAID = re.compile(r"[-–+−]"), re.compile(r"[^\W\d_][^=:≈\n]*[=:≈]")
 _AND = re.compile(r"(?<=[0-9)\]}πγ%])(?:,|[^\S\n])[^\S\n]*and[^\S\n]+(?=[^\s])")
 _STRONG = re.compile(r"(?<![\w)\]])\*\*([^\W\d_][^*\n]*)\*\*")
@@ -71,7 +72,7 @@ def laid_out(text: str) -> str:
         Unreadable: the dashes before all lines may be minus signs, or those of a list.
     """
     text = _ESCAPED.sub(_in_place(_unescaped), text)
-    for change in (_stacked_matrices, _latex, _calls, _tables, _prose):
+    for change in (_stacked_matrices, in_signs, _calls, _tables, _prose):
         text = change(text)
     return text
 
@@ -123,7 +124,7 @@ def _one_line(lines: list[str]) -> str:
     return whole
 
 
-def _latex(text: str) -> str:
+def in_signs(text: str) -> str:
     """LaTeX's matrices, aligned lines, letters and words; its fractions and roots are left as they are."""
     if "\\" not in text:
         return text
@@ -211,6 +212,15 @@ def _prose(text: str) -> str:
         return text
     return "\n".join(_blank(item) + line[item.end() :] if (item := _ITEM.match(line)) else line
                      for line in text.split("\n"))  # fmt: skip
+
+
+def keyed_list(text: str, names: Collection[object]) -> str:
+    """A list whose numbers or letters are names of what is asked for, as a table by name: ``(1) 3`` is ``1: 3``."""
+    lines = [line for line in text.split("\n") if line.strip()]
+    items = [_ITEM.match(line) for line in lines]
+    if len(lines) < 2 or not all(item and (item[4] or (item[3] == ")" and item[2])) in names for item in items):
+        return text
+    return _LABELLED.sub(lambda label: f"{label[1]}{label[2]}:".rjust(len(label[0])), text)
 
 
 def _is_list(lines: Sequence[tuple[re.Match[str], str]]) -> bool:

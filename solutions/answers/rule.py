@@ -20,7 +20,6 @@ from rldrill.solutions.exact import (
     is_zero,
     magnitude,
     parameters,
-    sign,
     simplest,
     to_sympy,
     value_where,
@@ -69,7 +68,23 @@ def within(value: Value, key: Value, bound: fmpq) -> bool:
             if size < bound or size > bound:
                 return bool(size < bound)
     exactly = value - key
-    return sign(bound - exactly) >= 0 and sign(bound + exactly) >= 0
+    return _is_not_below_zero(bound - exactly) and _is_not_below_zero(bound + exactly)
+
+
+def _is_not_below_zero(number: Value) -> bool:
+    """Whether a number is zero or more; what a thousand bits do not tell from zero is taken for it.
+
+    Raises:
+        NotReal: it is no real number.
+    """
+    if is_rational(number):
+        return bool(number >= 0)
+    for bits in (_FEW_BITS, _MANY_BITS):
+        if (found := clear_sign(number, None, bits)) is None:
+            raise NotReal(f"{number} is no real number")
+        if found:
+            return found > 0
+    return True
 
 
 def is_right(value: Value, key: Value, *, rounded: bool = True) -> bool:

@@ -10,7 +10,9 @@ __all__ = ["LONGEST", "Unreadable", "bare", "clean"]
 
 #: No answer is longer, unless the right one is.
 LONGEST = 2000
-_ABOUT = re.compile(r"\s*(?:[≈~]|(?:approx|approximately|about|circa|ca|roughly|exactly)\b\.?)\s*", re.IGNORECASE)
+_ABOUT = re.compile(
+    r"\s*(?:[≈~]|(?:approx|approximately|about|circa|ca|roughly|exactly)\b\.?(?!\s*[:=←→|]))\s*", re.IGNORECASE
+)
 _BOLD = re.compile(r"\*\*[^*\s](?:[^*]*[^*\s])?\*\*")
 _QUOTES = "'\"`"
 

@@ -35,6 +35,7 @@ from rldrill.solutions.answers.names import (
     unquoted,
 )
 from rldrill.solutions.answers.numbers import Reading, number, plain
+from rldrill.solutions.answers.pasted import in_signs, keyed_list
 from rldrill.solutions.answers.rule import equivalent, is_right
 from rldrill.solutions.answers.source import LONGEST, clean
 from rldrill.solutions.exact import NotReal, sign
@@ -63,7 +64,7 @@ _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)
 _YES = frozenset({"yes", "yep", "y", "true", "t", "ja", "j", "oui", "sí", "sì", "si", "sim"})
 _NO = frozenset({"no", "nope", "n", "false", "f", "nein", "non", "não"})
 #: What parts yes or no from the reason for it.
-_WHY = re.compile(r"\s*[,;:.(–—]\s*|\s+(?:-|as)\s+")
+_WHY = re.compile(r"\s*(?:[,;:(–—]|\.(?!\w))\s*|\s+(?:-|as)\s+")
 #: The reason behind an answer: left, because it earns more.
 _BECAUSE = re.compile(r"[\s,;:.(–—-]+(?:because|since|weil)\b.*", re.DOTALL | re.IGNORECASE)
 #: A comparison in brackets behind a word.
@@ -85,6 +86,7 @@ _SAID_FIRST = re.compile(
 )
 #: In brackets a sign that touches what follows begins an entry: [1 -1].
 _SIGNED_ENTRY = re.compile(r"[\w)]\s+[-+](?=[\w(√])")
+_SIGNED_LINE = re.compile(r"[\w.)\]}%]\s*\n\s*(?=[-+])")
 _ENTRIES = 200
 _FORMS = 30
 _NUMBER_FIRST = re.compile(r"[-+]?[0-9][0-9./]*\s+([A-Za-z]{2,})(?![\w({\[])")
@@ -103,8 +105,9 @@ def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGES
     """
     if odds := _ODDS.fullmatch(text):
         text = f"({odds[1]})/({odds[2]})"
-    reading = plain(text) or _number(_unsaid(_without_reason(clean(text, longest))), parameters, Arithmetic())
-    bars = _BARS.fullmatch(text.strip())
+    reading = plain(text) or _number(_whole(_unsaid(_without_reason(clean(text, longest)))), parameters, Arithmetic())
+    plainly = re.sub(r"\s", "", in_signs(text)) if "\\" in text else text.strip()
+    bars = _BARS.fullmatch(plainly.strip("$"))
     if bars and (parameters_of(reading.value) or sign(reading.value) < 0):
         raise Unreadable(
             f"{quoted(text.strip())} may be the absolute value, or {quoted(bars[1])} in a cell; write abs({bars[1]}), "
@@ -280,7 +283,7 @@ def read_table(
     """
     if len(keys) == 1 and (reading := plain(text)) is not None:
         return {keys[0]: reading}
-    source = clean(text, longest)
+    source = clean(keyed_list(text, (*keys, *ends)), longest)
     asked = Asked(keys, ends)
     found = by_name(source, asked)
     if found is None:
@@ -334,7 +337,7 @@ def read_words(
     Raises:
         Unreadable: a state is unknown or repeated, or its action is not allowed.
     """
-    source = clean(text, longest)
+    source = clean(keyed_list(text, (*keys, *ends)), longest)
     source = _without_reason(source) if len(keys) == 1 else source
     asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
     found = by_name(source, asked)
@@ -382,7 +385,10 @@ def _last_form(source: Source) -> Source:
     """What stands behind the last equal sign, without its reason: the action in ``arg max {1; 2} = fast (2 > 1)``."""
     source = _without_reason(source)
     compared = _COMPARED.search(source.text)
-    return (source.part(0, compared.start()) if compared else source).split("=")[-1]
+    last = (source.part(0, compared.start()) if compared else source).split("=")[-1]
+    if _RELATION.search(source.text[: last.start - source.start]):
+        raise source.unreadable(f"{quoted(source.text)} says what it is not, or no more than that; type what it is.")
+    return last
 
 
 def read_choice(text: str, options: Mapping[str, str]) -> str:
@@ -467,6 +473,14 @@ def _without_reason(source: Source) -> Source:
     """An answer without the words that say why."""
     said = _BECAUSE.search(source.text)
     return source.part(0, said.start()) if said else source
+
+
+def _whole(source: Source) -> Source:
+    """One number; refused where a line begins with a sign: it may go on with it, or be another number."""
+    if parted := _SIGNED_LINE.search(source.text):
+        said = "A line that begins with a sign may be another number; write a sum on one line."
+        raise source.unreadable(said, parted.end())
+    return source
 
 
 def _unsaid(source: Source) -> Source:

@@ -410,7 +410,7 @@ def test_a_working_of_several_lines_is_worth_what_its_last_line_says_of_what_is_
     assert exercise.check("gamma = 1/2\nR_0 = 3 + 1/8 = 25/8", "b").accepted
     assert exercise.check("R_0 = 3 + 1/8\n= 25/8", "b").accepted
     verdict = exercise.check("R_0 = 25/8\ndelta = 1", "b")
-    assert verdict.says == "The last line gives delta, but R is asked for; type its value alone."
+    assert verdict.says == "The last line gives delta, but R0 is asked for; type its value alone."
     assert not verdict.accepted
 
 
