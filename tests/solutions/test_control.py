@@ -265,3 +265,8 @@ def test_whose_targets_hang_on_an_action_value(instead: list[Any], letter: str) 
         values={"a": {"x": 1, "y": 2}, "b": {"x": 8, "y": 4}}, alpha="1/2", gamma="1/2", instead=instead,
     )  # fmt: skip
     assert answers["c"] == letter
+
+
+def test_every_return_of_importance_sampling_says_of_which_episode_it_is() -> None:
+    working = str(rldrill.draw("importance-sampling", 2, 1).working("b"))
+    assert [f"episode {number}: R₀ = " in working for number in (1, 2, 3)] == [True, True, False]
