@@ -230,3 +230,14 @@ def test_the_aim_of_apprenticeship_is_recalled_where_it_is_asked_whether_it_is_r
             assert ("μ(π) ≈ μ(π_E)" in last) == stops
             assert (": yes, it" in last or ": no, it" in last) == stops
             assert not any("≈ μ(π_E)" in each for each in before)
+
+
+def test_the_equations_of_a_second_feature_are_said_to_be_those_of_the_first() -> None:
+    seconds = 0
+    for seed in range(10):
+        exercise = rldrill.draw("feature-expectations-policy", 2, seed)
+        several = len(exercise.parts) == 3
+        told = [part.label for part in exercise.parts if "equations of (a)" in str(exercise.working(part.label))]
+        assert told == (["b"] if several else [])
+        seconds += several
+    assert seconds > 2
