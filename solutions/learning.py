@@ -1,10 +1,18 @@
 """Action values learned along a run: an update for every transition, with the values then current."""
 
+from collections.abc import Mapping
+from typing import Any
+
+from flint import fmpq
+
 from rldrill.problems.control import q_learning, sarsa
+from rldrill.problems.document import joined
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import answer_along
-from rldrill.solutions.exact import Value
+from rldrill.solutions.exact import Value, told
+from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.sheet.control import Q_LEARNING
 from rldrill.solutions.work import Work
 
 
@@ -13,6 +21,8 @@ def learn(given: q_learning.Given | sarsa.Given, work: Work, update: Formula, er
     known = knowns.action_values(given)
     errors: list[Value] = []
     for seen in knowns.moves(given):
+        if update is Q_LEARNING and (greatest := greatest_told(work, known, seen["S"][seen["t"] + 1])):
+            work.say(f"{greatest[0].upper()}{greatest[1:]}.")
         if given.td_errors:
             errors.append(work.step(error, **seen, **known))
         pair = seen["S"][seen["t"]], seen["A"][seen["t"]]
@@ -21,3 +31,13 @@ def learn(given: q_learning.Given | sarsa.Given, work: Work, update: Formula, er
         work.answer(tuple(errors) if len(errors) > 1 else errors[0])
         work.say("The updates above give these values.")
     answer_along(given, work, known["Q"], given.updated)
+
+
+def greatest_told(work: Work, known: Mapping[str, Any], state: str) -> str:
+    """Which action value Q-learning takes in a state; nothing where the episode ends there, or a letter is in one."""
+    values = {action: known["Q"][state, action] for action in known["actions"][state]}
+    if work.misconception is not None or len(values) == 1 or any(type(value) is not fmpq for value in values.values()):
+        return ""
+    best = arg_max(tuple(values), tuple(values.values()))
+    has, greatest = "has" if len(best) == 1 else "have", "greater" if len(values) == 2 else "greatest"
+    return f"in {state}, {joined([*best])} {has} the {greatest} value, ${told(values[best[0]])}$"

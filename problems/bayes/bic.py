@@ -19,7 +19,7 @@ from rldrill.problems.parts import Choice, Number, Part, Values
 
 TITLE = "Information criterion (BIC or AIC)"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
-REVISION = 7
+REVISION = 8
 
 #: What the models say of the coins' probabilities of heads.
 COIN_MODELS = {
@@ -133,6 +133,10 @@ def draw(level: int, rng: Draws) -> Given:
 
 #: So many tosses of a single coin leave the numbers small.
 _FEW_TOSSES = 12
+#: There are at least so many data for each parameter: nobody fits a model with more parameters than data.
+_DATA_EACH = 2
+#: What the richer model gains is at most so great a factor of the likelihood.
+_GAINED = 3**7
 
 
 def _drawn(level: int, rng: Draws) -> Given:
@@ -155,8 +159,7 @@ def _drawn(level: int, rng: Draws) -> Given:
     names = ("small", "medium", "large") if level == 2 else ("small", "large")
     numbers = sorted(rng.distinct(len(names), 1, 6))
     if kind == "border":
-        base, more = rng.choice((2, 3)), int(numbers[1] - numbers[0])
-        better = more * rng.choice((1, 2)) if more % 2 else more // 2 * rng.choice((1, 2, 3, 4))
+        base, better = rng.choice(_borders(*map(int, numbers)))
         lost = better + 1 + rng.below(3)
         likelihoods = [Fraction(1, base**lost), Fraction(1, base ** (lost - better))]
         return _fitted_models(rng, names, numbers, likelihoods, border=rng.choice(("more", "fewer")))
@@ -167,8 +170,22 @@ def _drawn(level: int, rng: Draws) -> Given:
         }
         return Given(criterion="AIC", fitted={name: fitted[name] for name in rng.shuffled(names)})
     powers = sorted(rng.distinct(len(names), 2, 9), reverse=True)
-    n = rng.choice((4, 8, 16, 32))
+    n = rng.choice([n for n in (8, 16, 32, 64) if n >= _DATA_EACH * numbers[-1]])
     return _fitted_models(rng, names, numbers, [Fraction(1, 2 ** int(power)) for power in powers], n=n)
+
+
+def _borders(few: int, many: int) -> list[tuple[int, int]]:
+    """A base of the likelihoods, and by which of its powers that of the richer model is the greater one.
+
+    Both models are then worth the same at a power of the base, n, which makes up for the parameters.
+    """
+    more = many - few
+    return [
+        (base, more * power // 2)
+        for base in (2, 3)
+        for power in (1, 2, 3, 4)
+        if more * power % 2 == 0 and base ** (more * power // 2) <= _GAINED and base**power >= _DATA_EACH * many
+    ]
 
 
 def _fitted_models(

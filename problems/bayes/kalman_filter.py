@@ -262,9 +262,14 @@ def _line(given: Given) -> tuple[Block, ...]:
             f"A robot's belief about its position on a line is normal with mean $μ_0 = {mean}$ and variance "
             f"$Σ_0 = {variance}$. In every step {moves} normal noise of variance "
             f"$R = {process}$; then it measures its position as $z_t$, with normal noise of variance $Q = {sensor}$. "
-            "All noises are independent, with mean $0$."
+            f"All noises are independent, with mean $0$.{_unmeasured(given)}"
         ),
     )
+
+
+def _unmeasured(given: Given) -> str:
+    """What a dash stands for."""
+    return " Where $z_t$ is –, nothing is measured." if any(event.z is None for event in given.steps) else ""
 
 
 def _models(given: Given) -> tuple[Block, ...]:
@@ -282,7 +287,7 @@ def _models(given: Given) -> tuple[Block, ...]:
         Paragraph(
             f"{told}. In every step it becomes $x_t = A x_{{t−1}}{driven} + ε_t$, and $z_t = C x_t + δ_t$ is measured. "
             "The noises $ε_t$ and $δ_t$ are normal and independent, with mean $0$ and covariances $R$ and $Q$. The "
-            "first belief is normal, with mean $μ_0$ and covariance $Σ_0$."
+            f"first belief is normal, with mean $μ_0$ and covariance $Σ_0$.{_unmeasured(given)}"
         ),
         *(Equation(mathematics(name), (tabular(rows),), ("=",), linear=True) for name, rows in named),
     )
@@ -292,7 +297,7 @@ _CALLED = ("mean", "variance")
 
 
 def _wanted(given: Given, time: int, event: Event) -> list[tuple[str, Numbers | Matrix]]:
-    after = f"after the motion of step ${time}$, before the measurement"
+    after = f"after the motion of step ${time}${', before the measurement' if event.z is not None else ''}"
     if given.on_a_line:
         ahead = Numbers((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}"), called=_CALLED)
         wanted: list[tuple[str, Numbers | Matrix]] = [(f"What are the mean and the variance {after}?", ahead)]

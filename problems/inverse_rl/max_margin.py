@@ -167,7 +167,9 @@ def question(given: Given) -> Question:
             blocks,
             (
                 Part(equal, Values(letter, tuple(given.policies)), zero=True),
-                Part(f"What is the smallest ${letter}$ with which all of them hold if $ξ = 0$?", Number(), zero=True),
+                Part(
+                    f"What is the smallest ${letter}$ with which all constraints hold if $ξ = 0$?", Number(), zero=True
+                ),
             ),
         )
     return Question(
@@ -179,6 +181,6 @@ def question(given: Given) -> Question:
                 zero=True,
             ),
             Part(f"How many of the constraints hold with $ξ = {shown(given.slack)}$?", Number(), zero=True),
-            Part("What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), zero=True),
+            Part("What is the smallest $ξ ≥ 0$ with which all constraints hold?", Number(), zero=True),
         ),
     )

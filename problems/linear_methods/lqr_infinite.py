@@ -28,7 +28,7 @@ from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 8
+REVISION = 9
 _LARGEST = 6
 
 
@@ -176,12 +176,16 @@ def _discounted() -> tuple[tuple[Fraction, ...], ...]:
 
 @cache
 def _crossed() -> tuple[tuple[Fraction, ...], ...]:
-    """Scalar systems with a cross term in which the root comes out."""
+    """Scalar systems with a cross term in which the root comes out.
+
+    With RA = BN the best action brings every state to 0 at once, and Riccati's equation has nothing to solve.
+    """
     return tuple(
         (Fraction(a), Fraction(b), Fraction(q), Fraction(r), Fraction(n))
         for a, b, q, r in _numbers()
-        for n in (-2, -1, 1, 2)
+        for n in (-3, -2, -1, 1, 2, 3)
         if q * r > n**2
+        and r * a != b * n
         and _is_square(Fraction(b**2 * q + (a**2 - 1) * r - 2 * a * b * n) ** 2 + 4 * b**2 * (q * r - n**2))
     )
 

@@ -1,5 +1,7 @@
 """The values after several visits by the sample average, or by a constant step size where the returns drift."""
 
+from collections.abc import Sequence
+from operator import ne
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -17,7 +19,7 @@ from rldrill.problems.settings import draw_setting, in_order
 
 TITLE = "Sample average"
 SOURCE = "Sutton & Barto 2018, sections 2.4 and 2.5"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Reversible):
@@ -74,39 +76,61 @@ def draw(level: int, rng: Draws) -> Given:
         return _averaged(rng, rng.choice(tours))
     count = 2 + rng.below(3)
     returns = [rng.nonzero(-4, 9) for _ in range(count)]
-    value = _before(rng, returns)
     if level == 2:
         alpha = rng.fraction("1/2", "1/3") if count < 4 else Fraction(1, 2)
+        value = _before(rng, returns, [alpha] * count)
         return Given(values={a: value}, visits=tuple((a, each) for each in returns), alpha=alpha)
     kind = rng.below(3)
     if kind == 0:
         few = returns[:3]  # with a fourth the powers of α are no pleasure
+        value = _before(rng, few, [Fraction(0)] * len(few))
         return Given(values={a: value}, visits=tuple((a, each) for each in few), alpha=Parameter("alpha"))
     hidden = rng.below(count)
     visits = tuple((a, each if index != hidden else Parameter("x")) for index, each in enumerate(returns))
-    if kind == 1:
-        alpha, known = Fraction(1, 2), value
-        for each in returns:
-            known += alpha * (each - known)
-        return Given(values={a: value}, visits=visits, alpha=alpha, known=known)
     before = 1 + rng.below(5)
-    known = (before * value + sum(returns)) / (before + count)
+    shares = [Fraction(1, 2)] * count if kind == 1 else _of_an_average(before, count)
+    value = _before(rng, returns, shares)
+    known = _along(value, returns, shares)[-1]
+    if kind == 1:
+        return Given(values={a: value}, visits=visits, alpha=shares[0], known=known)
     return Given(values={a: value}, counts={a: before}, visits=visits, known=known)
 
 
 def _averaged(rng: Draws, states: tuple[str, ...]) -> Given:
-    named = in_order(states)
     visits = tuple((state, rng.nonzero(-6, 12)) for state in states)
-    return Given(
-        values={state: _before(rng, [each for visited, each in visits if visited == state]) for state in named},
-        counts={state: (2 if len(states) == 1 else 1) + rng.below(4) for state in named},
-        visits=visits,
-    )
+    values: dict[str, Fraction] = {}
+    counts: dict[str, int] = {}
+    for state in in_order(states):
+        returns = [each for visited, each in visits if visited == state]
+        counts[state] = (2 if len(states) == 1 else 1) + rng.below(4)
+        shares = _of_an_average(counts[state], len(returns))
+        values[state] = _before(rng, returns, shares, others=tuple(values.values()))
+    return Given(values=values, counts=counts, visits=visits)
 
 
-def _before(rng: Draws, returns: list[Fraction]) -> Fraction:
-    """An average so far that the returns change."""
-    return rng.fitting(-4, 10, lambda value: len(returns) * value != sum(returns))
+def _of_an_average(before: int, count: int) -> list[Fraction]:
+    """How far each of so many further returns moves an average of those before."""
+    return [Fraction(1, before + number) for number in range(1, count + 1)]
+
+
+def _along(value: Fraction, returns: Sequence[Fraction], shares: Sequence[Fraction]) -> list[Fraction]:
+    """The value before every return, which moves it that share of the way, and after the last."""
+    values = [value]
+    for each, share in zip(returns, shares, strict=True):
+        values.append(values[-1] + share * (each - values[-1]))
+    return values
+
+
+def _before(
+    rng: Draws, returns: Sequence[Fraction], shares: Sequence[Fraction], others: Sequence[Fraction] = ()
+) -> Fraction:
+    """A value so far that every return moves, and all of them together, and that no other state has."""
+
+    def fits(value: int) -> bool:
+        moved = all(map(ne, returns, _along(Fraction(value), returns, shares)))
+        return moved and len(returns) * value != sum(returns) and value not in others
+
+    return rng.fitting(-4, 10, fits)
 
 
 def question(given: Given) -> Question:

@@ -59,14 +59,20 @@ def solve(given: Several | Changed, work: Work) -> None:
         work.answer(letter)
 
 
+def _looks(backup: Backup) -> str:
+    """How its diagram looks, in a sentence; a title with an aside gets the comma that closes it."""
+    title = TITLES[backup]
+    return f"The diagram of {title}{',' * (',' in title)} {_LOOKS[backup]}"
+
+
 def _solve_changed(given: Changed, work: Work) -> None:
     letter = given.letters[given.named]
-    work.say(f"As it is drawn, it is that of {TITLES[given.shows]}: it {_LOOKS[given.shows]}")
-    work.say(f"The diagram of {TITLES[given.named]} {_LOOKS[given.named]} So with the change it is ({letter}).")
+    work.say(f"As it is drawn, it is that of {TITLES[given.shows]}. It {_LOOKS[given.shows]}")
+    work.say(f"{_looks(given.named)} So with the change it is ({letter}).")
     work.answer(letter)
     (change,) = given.right_changes
     letter = given.letters_of_changes[change]
-    work.say(f"The diagram of {TITLES[given.target]} {_LOOKS[given.target]}")
+    work.say(_looks(given.target))
     work.say(f"The diagram has become that of {TITLES[given.named]}, so the further change is ({letter}).")
     work.answer(letter)
 

@@ -189,9 +189,15 @@ def _border(given: Given, work: Work, better: int) -> None:
     work.answer(ascii_uppercase[given.names.index(chosen)])
 
 
+def _decimals(value: Value) -> str:
+    """Four digits; more where these are zeros behind a whole number, which it is not."""
+    rounded = [near(value, digits) for digits in (4, 5, 6)]
+    return next((number for number in rounded if "." in number), rounded[0])
+
+
 def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
     name = given.criterion
-    numbers = [f"{name}({model}) {near(value, 4)}" for model, value in criteria.items()]
+    numbers = [f"{name}({model}) {_decimals(value)}" for model, value in criteria.items()]
     two = len(numbers) == 2
     if any(isinstance(value, sympy.Expr) for value in criteria.values()):
         work.say(f"In numbers, {joined(numbers)}.")

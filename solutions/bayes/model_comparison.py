@@ -62,7 +62,7 @@ def solve(given: Given, work: Work) -> None:
     work.say("All posteriors have the same number below the line, so what stands above it decides:")
     best = work.step(MODEL_COMPARISON, **known)
     told = f"“{best[0]}” is the most probable model" if len(best) == 1 else "No model is more probable than all others"
-    work.say(f"{told}: {'yes' if best == names[:1] else 'no'}.")
+    work.say(f"{told}, so the answer is {'yes' if best == names[:1] else 'no'}.")
     work.answer(best == names[:1])
 
 
@@ -70,7 +70,8 @@ def _by_the_odds(work: Work, names: tuple[str, ...], odds: Value) -> None:
     """Of two models the first is the more probable one where the odds are above 1."""
     side = sign(odds - 1)
     relation, what = {1: ("above", "the more"), -1: ("below", "the less"), 0: ("equal to", "not the more")}[side]
-    work.say(f"The odds are {relation} $1$: “{names[0]}” is {what} probable model: {'yes' if side > 0 else 'no'}.")
+    answer = "yes" if side > 0 else "no"
+    work.say(f"The odds are {relation} $1$, so “{names[0]}” is {what} probable model: {answer}.")
     work.answer(side > 0)
 
 

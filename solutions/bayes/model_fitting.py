@@ -62,9 +62,14 @@ def _coin(coin: Coin, work: Work, with_prior: Formula) -> None:
         work,
         "Likelihood times prior is proportional to $θ^{n_1} (1 − θ)^{n_0}·θ^{a − 1} (1 − θ)^{b − 1}$, that is "
         f"$θ^{{{ones}}} (1 − θ)^{{{zeros}}}$. It is greatest where the derivative of its logarithm, "
-        f"${ones}/θ − {zeros}/(1 − θ)$, is $0$:",
+        f"${ones}/θ − {zeros}/(1 − θ)$, is $0$, so where ${_times(ones)}(1 − θ) = {_times(zeros)}θ$:",
     )
     work.answer(work.step(with_prior, **known))
+
+
+def _times(factor: str) -> str:
+    """A factor as it stands before a bracket or a letter: no 1."""
+    return "" if factor == "1" else factor
 
 
 def _most_probable(work: Work, why: str) -> None:
@@ -89,7 +94,8 @@ def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
     _most_probable(
         work,
         "Likelihood times prior is proportional to $exp(−∑_i (x_i − μ)^2/(2 σ^2) − (μ − μ_0)^2/(2 σ_0^2))$. It is "
-        "greatest where the derivative of the exponent, $n (μ̂ − μ)/σ^2 − (μ − μ_0)/σ_0^2$, is $0$:",
+        "greatest where the derivative of the exponent, $n (μ̂ − μ)/σ^2 − (μ − μ_0)/σ_0^2$, is $0$, so where "
+        "$n σ_0^2 (μ̂ − μ) = σ^2 (μ − μ_0)$:",
     )
     noise, mean, variance = exact(prior.noise), exact(prior.mean), exact(prior.variance)
     peak = work.step(with_prior, sigma2=noise, prior_mean=mean, prior_variance=variance, **known)
@@ -114,7 +120,7 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
         work,
         "Likelihood times prior is proportional to $exp(−∑_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
         "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent with respect to $θ_1$, "
-        "$(S_{x y} − θ_1 S_{x x})/σ^2 − θ_1/σ_0^2$, is $0$:",
+        "$(S_{x y} − θ_1 S_{x x})/σ^2 − θ_1/σ_0^2$, is $0$, so where $S_{x y} − θ_1 S_{x x} = θ_1 σ^2/σ_0^2$:",
     )
     slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)
     if prior.estimate is not None:

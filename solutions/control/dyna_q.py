@@ -9,6 +9,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import put_in_name
+from rldrill.solutions.learning import greatest_told
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
@@ -39,7 +40,8 @@ def _act(given: Given, work: Work, model: Model) -> dict[str, Any]:
         "After a transition the model holds what has followed: $r̂(s_t, a_t) ← r_{t+1}$ and $ŝ(s_t, a_t) ← s_{t+1}$."
     )
     for time, entry in enumerate(given.tried):
-        work.say(f"Real update at $t = {time}$, of the pair {_named(entry.pair)}:")
+        greatest = greatest_told(work, known, known["S"][time + 1])
+        work.say(f"Real update at $t = {time}$, of the pair {_named(entry.pair)}{greatest and f'; {greatest}'}:")
         known["Q"] = known["Q"] | {entry.pair: work.step(Q_LEARNING, t=time, **known)}
         work.say(f"The model now holds for {_named(entry.pair)}: {_held(entry)}.")
     known["Q"] = known["Q"] | work.answer({pair: known["Q"][pair] for pair in given.updated})
@@ -62,8 +64,12 @@ def _plan(given: Given, work: Work, model: Model, known: dict[str, Any], stale: 
         "model_next": {pair: entry.next for pair, entry in model.items()},
     }
     for number, pair in enumerate(given.planned, 1):
-        work.say(f"Planned update {number}, of the pair {_named(pair)}; the model holds {_held(model[pair])}:")
         read = known if stale is None else known | {"Q": stale}
+        greatest = greatest_told(work, read, model[pair].next)
+        work.say(
+            f"Planned update {number}, of the pair {_named(pair)}; the model holds {_held(model[pair])}"
+            f"{greatest and f', and {greatest}'}:"
+        )
         value = work.step(PLANNED_UPDATE, s=pair[0], a=pair[1], **read, **held)
         known = known | {"Q": known["Q"] | {pair: value}}
     work.answer({pair: known["Q"][pair] for pair in given.replayed})

@@ -43,9 +43,10 @@ def solve(given: Given, work: Work) -> None:
     ratios = answer if len(ratios) > 1 else (answer,)
     returns = {}
     for number, run in enumerate(runs, 1):
-        work.say(f"The return $R_{{0, {number}}}$ of episode {number}:")
-        returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
-    work.say(f"Over the $n = {len(runs)}$ episode{'s' if len(runs) > 1 else ''}:")
+        label = f"episode {number}"
+        returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"], label=label)
+    episodes = f"the $n = {len(runs)}$ episodes" if len(runs) > 1 else "this one, $n = 1$"
+    work.say(f"$R_{{0, i}}$ is the return $R_0$ of episode $i$. Over {episodes}:")
     weighing: dict[str, Any] = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}
     work.answer(work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))
     if len(runs) > 1:

@@ -49,9 +49,12 @@ def _in_the_round(given: Given, work: Work, known: Value) -> None:
 
 
 def _tail(given: Given, work: Work, read: Callable[[Scalar], Value]) -> Value:
-    n = len(given.repeated)
-    work.say(f"The rewards repeat after ${n}$ {'step' if n == 1 else 'steps'}, $n = {n}$: a geometric series.")
-    return work.step(GEOMETRIC_SERIES, t=len(given.first), n=len(given.repeated), **_known(given, read))
+    k, n = len(given.first), len(given.repeated)
+    work.say(
+        f"The rewards repeat after ${n}$ {'step' if n == 1 else 'steps'}, $n = {n}$, so $R_{{{k + n}}} = R_{{{k}}}$, "
+        "and this return is one round of rewards plus $γ^n$ times itself, a geometric series. Solved for the return:"
+    )
+    return work.step(GEOMETRIC_SERIES, t=k, n=n, **_known(given, read))
 
 
 def _from_start(given: Given, work: Work, read: Callable[[Scalar], Value], tail: Value) -> Value:

@@ -50,6 +50,8 @@ def solve(given: Given, work: Work) -> None:
     for index in range(1, given.size + 1):
         fixed = {(index, state): ZERO for state in given.terminal} | _resting(work, index, loops, known["phi"])
         cases = [{"component": index, "s": state} for state in states if (index, state) not in fixed]
+        if index > 1 and cases:
+            work.say(f"These are the equations of (a) with $φ_{index}$ for $φ_1$: only the features in them change.")
         solved = work.system(FEATURES_FROM, mu_of, cases, mu_of=fixed, **known) if cases else fixed
         answer = {state: solved[index, state] for state in states}
         if given.matched is None:

@@ -33,8 +33,7 @@ def solve(given: Given, work: Work) -> None:
     work.recall(MAX_MARGIN)
     work.say(f"With $ξ = {shown(given.slack)}$ the right side of each constraint is:")
     holding = sum([_holds(work, name, sides, exact(given.slack)) for name in given.policies])
-    count = f"{holding or 'none'} of the {len(given.policies)} constraints {'hold' if holding > 1 else 'holds'}"
-    work.say(f"So {count}.")
+    work.say(f"So {_counted(holding, len(given.policies))}.")
     work.answer(fmpq(holding))
     violated = tuple(
         name
@@ -44,6 +43,13 @@ def solve(given: Given, work: Work) -> None:
     slack = work.answer(work.step(SLACK, policies=tuple(given.policies), violated=violated, **sides))
     if not violated and slack == 0:
         work.say("No constraint is violated, so no slack is needed.")
+
+
+def _counted(holding: int, count: int) -> str:
+    """How many of the constraints hold, in words."""
+    if holding == count:
+        return {1: "the constraint holds", 2: "both constraints hold"}.get(count, f"all {count} constraints hold")
+    return f"{holding or 'none'} of the {count} constraints {'hold' if holding > 1 else 'holds'}"
 
 
 def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margins: dict[str, Any]) -> None:

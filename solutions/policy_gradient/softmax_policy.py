@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy
 
+from rldrill.problems.document import Equation
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
@@ -15,6 +16,7 @@ from rldrill.solutions.exact import ONE, ZERO, Value, exact, parameters, simples
 from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
+from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
@@ -28,7 +30,7 @@ from rldrill.solutions.sheet.policy_gradient import (
 )
 from rldrill.solutions.sheet.policy_gradient import theta as theta_of
 from rldrill.solutions.softmax import action_features, by_number, chances
-from rldrill.solutions.work import Equality, Work
+from rldrill.solutions.work import Equality, Step, Work
 
 
 def solve(given: Given, work: Work) -> None:
@@ -44,7 +46,36 @@ def solve(given: Given, work: Work) -> None:
     found = work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
     if given.entropy:
         known["pi"] = {(action, "s"): found[action] for action in actions}
-        work.answer(work.step(ENTROPY, **known))
+        entropy = work.step(ENTROPY, **known)
+        if work.lines and isinstance(last := work.lines[-1], Step) and _of_fractions(last):
+            work.lines[-1] = _TakenApart(*last)
+        work.answer(entropy)
+
+
+#: Longer numbers nobody takes apart into primes.
+_FACTORED = 10**6
+
+
+def _of_fractions(step: Step) -> bool:
+    """Whether all probabilities are fractions that somebody takes apart into primes."""
+    chances = map(to_sympy, step.known["pi"].values())
+    return all(chance.is_Rational and chance.q < _FACTORED for chance in chances)
+
+
+class _TakenApart(Step):
+    """An entropy: the logarithm of every fraction in those of primes, then multiplied out, action by action."""
+
+    def _written(self) -> Equation:
+        plain = super()._written()
+        apart, products = [], []
+        for chance in self.known["pi"].values():
+            number = to_sympy(chance)
+            apart.append(sympy.Mul(number, leaf(tidy(sympy.log(number))), evaluate=False))
+            powers = sorted(sympy.factorrat(number).items())
+            products += [sympy.Mul(-number * power, sympy.log(prime), evaluate=False) for prime, power in powers]
+        lines = sympy.Mul(-1, sympy.Add(*apart, evaluate=False), evaluate=False), sympy.Add(*products, evaluate=False)
+        rights = (plain.rights[0], *map(typeset, lines), plain.rights[-1])
+        return Equation(plain.left, rights, ("=",) * len(rights))
 
 
 def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -> None:

@@ -365,7 +365,7 @@ with evaluate(False):
         heads / (heads + tails),
         title="Maximum likelihood: coin",
         source="Murphy 2012, section 3.3.3",
-        hint="The share of heads among all tosses makes the data most probable.",
+        hint="The relative frequency makes the data most probable.",
         note="$n_1$ heads and $n_0$ tails were seen.",
         place=Place.BEYOND,
     )
@@ -375,7 +375,7 @@ with evaluate(False):
         (heads + beta_a - 1) / (heads + tails + beta_a + beta_b - 2),
         title="Maximum a posteriori: coin",
         source="Murphy 2012, section 3.3.3",
-        hint="The prior counts as a − 1 heads and b − 1 tails that were seen before.",
+        hint="The prior counts as a − 1 cases of the one outcome and b − 1 of the other that were seen before.",
         note="For the prior $Beta(a, b)$.",
         place=Place.BEYOND,
     )
@@ -612,7 +612,7 @@ with evaluate(False):
         evidence(first_model) * p(first_model) / (evidence(second_model) * p(second_model)),
         title="Posterior odds of two models",
         source="MacKay 2003, section 3.3",
-        hint="Multiply the ratio of the evidences by the ratio of the priors; p(D) cancels.",
+        hint="Multiply the ratio of the evidences by the ratio of the priors; $p(D_z)$ cancels.",
         place=Place.BEYOND,
         misread={
             PRIORS_FORGOTTEN: evidence(first_model) / evidence(second_model),

@@ -135,7 +135,7 @@ with evaluate(False):
         (Jy(2) * vx - Jx(2) * vy) / determinant,
         title="Velocity of the first of two joints",
         source="Siciliano et al. 2009, section 3.5",
-        hint="The first row of the inverse of J holds the entries of the second column, over the determinant.",
+        hint="By Cramer's rule: in the determinant above the line v takes the place of the first column of J.",
         place=Place.WORKING,
     )
     SECOND_RATE = Formula(
@@ -144,7 +144,7 @@ with evaluate(False):
         (Jx(1) * vy - Jy(1) * vx) / determinant,
         title="Velocity of the second of two joints",
         source="Siciliano et al. 2009, section 3.5",
-        hint="The second row of the inverse of J holds the entries of the first column, over the determinant.",
+        hint="By Cramer's rule: in the determinant above the line v takes the place of the second column of J.",
         place=Place.WORKING,
     )
     SINGULAR = Formula(
@@ -202,7 +202,7 @@ with evaluate(False):
         ),
         title="Denavit-Hartenberg transform of a link",
         source="Siciliano et al. 2009, section 2.8.2",
-        hint="Turn by θ and shift by d along z, then shift by a and turn by α along the new x.",
+        hint="Turn by θ about z and shift by d along it, then shift by a along the new x and turn by α about it.",
         place=Place.BEYOND,
     misread={CRAIGS: Blocks(
             4,

@@ -96,7 +96,7 @@ with evaluate(False):
         Abs(place - centre_at(i)),
         title="Distance from a centre on a line",
         source="Euclidean norm of one number",
-        hint="Subtract, and leave the sign away.",
+        hint="Subtract, and drop the sign.",
         place=Place.WORKING,
     )
     HALF_FORGOTTEN = Misconception(

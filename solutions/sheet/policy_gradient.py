@@ -71,10 +71,6 @@ def _feature(index: Math, *arguments: Math) -> Math:
     return row(Script(variable("f"), index), Fence(listed(arguments)))
 
 
-def _entropy(state: Math) -> Math:
-    return row(variable("H"), Fence(row(variable("π"), Fence(row(variable("·"), punctuation("|"), state)))))
-
-
 def _odds(action: Math, other: Math, state: Math) -> Math:
     above, below = (row(variable("π"), Fence(row(each, punctuation("|"), state))) for each in (action, other))
     return Fraction(above, below)
@@ -110,7 +106,7 @@ unclipped = quantity("unclipped", subscripted("u"))
 clipped = quantity("clipped", subscripted("c"))
 L_t = quantity("L_t", subscripted("L"))
 L = letter("L")
-of_policy = quantity("entropy", _entropy)
+entropy = letter("entropy", "H")
 Samples = letter("samples", "B")
 
 
@@ -539,8 +535,8 @@ with evaluate(False):
     )
     ENTROPY = Formula(
         "entropy",
-        of_policy(s),
-        -SumOver(pi(a1, s) * log(pi(a1, s)), a1, Choices),
+        entropy,
+        -SumOver(pi(a, s) * log(pi(a, s)), a, Choices),
         title="Entropy of a policy",
         source="Cover & Thomas 2006, section 2.1",
         hint="Weight the logarithm of every probability by the probability itself, add, and change the sign.",

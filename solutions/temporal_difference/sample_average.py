@@ -72,7 +72,7 @@ def _weighted(given: Given, work: Work) -> None:
 @slip(
     "old-value-as-one-return",
     "The old value is the mean of n(s) returns; it counts as often, not as a single one.",
-    when=lambda given: given.known is None and any(given.counts.get(state, 0) > 1 for state in given.visited),
+    when=lambda given: any(given.counts.get(state, 0) > 1 for state in given.visited),
 )
 def counts_forgotten(given: Given, work: Work) -> None:
     """Every state as if it had been visited once at most."""

@@ -27,7 +27,7 @@ def solve(given: Given, work: Work) -> None:
 
 def _returns(given: Given, work: Work, read: Callable[[Scalar], Value]) -> tuple[Value, ...]:
     known = known_episode(given, read)
-    work.say(f"The run ends at $T = {known['T']}$.")
+    work.say(f"The {'episode' if known['ends'] else 'run'} ends at $T = {known['T']}$.")
     return tuple(average(work, known, time, averaged(work, known, time)) for time in given.asked)
 
 

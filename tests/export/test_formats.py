@@ -227,8 +227,8 @@ def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> N
 
 @cache
 def german() -> Exam:
-    # One parameter of 4 points and a likelihood of 1/512: 2·9 ln 2 + ln 4 = 20 ln 2 = 13.863
-    exercises = (rldrill.load("bic/2/884045"), rldrill.load("markov-property/1/1"))
+    # Two parameters, 16 points and a likelihood of 1/64: 2·6 ln 2 + 2 ln 16 = 20 ln 2 = 13.863
+    exercises = (rldrill.load("bic/2/24"), rldrill.load("markov-property/1/1"))
     head = Head(title="Klausur 2.5", date="26.11.2026", language="de", decimal_mark=",")
     return Exam(head, 1, (Version("A", exercises, (0, 1)),))
 

@@ -219,3 +219,28 @@ def test_the_target_that_is_known_is_sarsas_alone() -> None:
         assert solution.answers["b"][again] != given.known
         letters[solution.answers["c"]] += 1
     assert min(letters[letter] for letter in "ABCD") > 4
+
+
+def test_every_return_moves_the_average_that_it_is_averaged_into() -> None:
+    for given in drawn("sample-average", (1, 2)):
+        values, counts = dict(given.values), dict(given.counts)
+        assert len(set(values.values())) == len(values)  # or nobody sees which state a value was taken from
+        for state, each in given.visits:
+            assert each != values[state]
+            counts[state] = counts.get(state, 0) + 1
+            values[state] += (each - values[state]) * (given.alpha or Fraction(1, counts[state]))
+
+
+def test_models_have_at_most_half_as_many_parameters_as_data() -> None:
+    for seed in range(60):
+        for level in (1, 3):
+            solution = draw("bic", level, seed)
+            given: Any = solution.problem.given
+            if given.fitted is not None:
+                data = solution.answers["a"] if given.border else given.n
+                assert 2 * max(model.k for model in given.fitted.values()) <= data
+
+
+def test_no_best_action_of_a_scalar_system_brings_the_state_to_0_at_once() -> None:
+    for seed in range(60):
+        assert draw("lqr-infinite", 2, seed).answers["c"] != 0

@@ -460,3 +460,14 @@ def test_steps_are_numbered_where_there_is_more_than_one(actions: list[str], lab
     exercise = rldrill.read({"family": "bayes-predict", "given": given_})
     written = "\n".join(unicode_text(block) for block in exercise.working())
     assert " ".join(findall(r"step (\d)", written)) == labels
+
+
+def test_a_step_without_a_measurement_is_not_asked_before_one() -> None:
+    steps = [{"u": [[1]]}, {"u": [[2]], "z": [[7]]}]
+    given_ = {"mean": [[0]], "covariance": [[1]], "process": [[2]], "sensor": [[3]], "steps": steps}
+    exercise = rldrill.read({"family": "kalman-filter", "given": given_})
+    assert "Where zₜ is –, nothing is measured." in " ".join(str(exercise.question()).split())
+    asked = [part.ask for part in exercise.parts]
+    assert asked[0].endswith("after the motion of step $1$?")
+    assert asked[1].endswith("after the motion of step $2$, before the measurement?")
+    assert "nothing is measured" not in str(rldrill.draw("kalman-filter", 1, 1).question())

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import rldrill
 from asking import solved
 from rldrill.problems.catalogue import family
+from rldrill.problems.document import Paragraph
 from rldrill.problems.errors import FileError
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.drawing import draw
@@ -265,3 +266,18 @@ def test_whose_targets_hang_on_an_action_value(instead: list[Any], letter: str) 
         values={"a": {"x": 1, "y": 2}, "b": {"x": 8, "y": 4}}, alpha="1/2", gamma="1/2", instead=instead,
     )  # fmt: skip
     assert answers["c"] == letter
+
+
+def test_every_return_of_importance_sampling_says_of_which_episode_it_is() -> None:
+    working = str(rldrill.draw("importance-sampling", 2, 1).working("b"))
+    assert [f"episode {number}: R₀ = " in working for number in (1, 2, 3)] == [True, True, False]
+
+
+def test_q_learning_says_which_value_is_the_greatest_before_it_takes_it() -> None:
+    rows = {"a": {"l": 2, "r": 4}, "b": {"l": 1, "m": 6, "r": 3}}
+    run = {"states": ["a", "b", "a", "end"], "actions": ["l", "r", "r"], "rewards": [1, 2, 3]}
+    given_ = {"values": rows, "trajectory": run | {"terminal": ["end"]}, "alpha": "1/2", "gamma": "1/2"}
+    exercise = rldrill.read({"family": "q-learning", "given": given_})
+    said = [block.text for block in exercise.working() if isinstance(block, Paragraph)]
+    # Of b the table still holds 6; in a the first update has made 2 + 1/2 (1 + 3 − 2) = 3 of 2; the run then ends.
+    assert said == ["In b, m has the greatest value, $6$.", "In a, r has the greater value, $4$."]

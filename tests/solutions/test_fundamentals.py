@@ -131,3 +131,8 @@ def test_two_drawn_episodes_that_pay_the_same_do_so_at_a_discount_between_0_and_
     for episodes in compared:
         (now, later), (other, after) = episodes.rewards, episodes.others
         assert 0 < Fraction(now - other, after - later) < 1
+
+
+def test_a_return_that_repeats_is_said_to_hold_itself() -> None:
+    working = " ".join(str(rldrill.draw("return-infinite", 2, 4).working("a")).split())
+    assert "so R₄ = R₂, and this return is one round of rewards plus γⁿ times itself" in working

@@ -189,12 +189,16 @@ def test_an_open_discount_gives_a_rational_function() -> None:
     assert answers["b"] == 1 / (1 - generator("gamma"))
 
 
-def test_the_number_of_constraints_that_hold_is_told() -> None:
-    for seed in range(10):
-        exercise = rldrill.draw("max-margin", 2, seed)
-        told = str(exercise.working("b"))
-        holding = exercise.solve()["b"]
-        assert f"{holding or 'none'} of the {len(exercise.problem.given.policies)} constraints" in told  # type: ignore[attr-defined]
+@pytest.mark.parametrize(
+    ("slack", "said"),
+    [(0, "none of the 2 constraints holds"), (3, "1 of the 2 constraints holds"), (9, "both constraints hold")],
+)
+def test_how_many_constraints_hold_is_said_in_words(slack: int, said: str) -> None:
+    # wᵀμ is 4 for the expert, 5 and 8 for the others: with margins of 1 the slacks needed are 2 and 5.
+    rivals = {name: {"mu": [worth], "margin": 1} for name, worth in (("a", 5), ("b", 8))}
+    given_ = {"w": [1], "expert": [4], "policies": rivals, "slack": slack}
+    exercise = rldrill.read({"family": "max-margin", "given": given_})
+    assert f"So {said}." in str(exercise.working("b"))
 
 
 @pytest.mark.parametrize("level", [1, 2, 3])
@@ -226,3 +230,14 @@ def test_the_aim_of_apprenticeship_is_recalled_where_it_is_asked_whether_it_is_r
             assert ("μ(π) ≈ μ(π_E)" in last) == stops
             assert (": yes, it" in last or ": no, it" in last) == stops
             assert not any("≈ μ(π_E)" in each for each in before)
+
+
+def test_the_equations_of_a_second_feature_are_said_to_be_those_of_the_first() -> None:
+    seconds = 0
+    for seed in range(10):
+        exercise = rldrill.draw("feature-expectations-policy", 2, seed)
+        several = len(exercise.parts) == 3
+        told = [part.label for part in exercise.parts if "equations of (a)" in str(exercise.working(part.label))]
+        assert told == (["b"] if several else [])
+        seconds += several
+    assert seconds > 2

@@ -388,6 +388,20 @@ def test_the_entropy_of_a_policy_is_a_third_question() -> None:
     assert [part.label for part in rldrill.read({"family": "softmax-policy", "given": given}).parts] == ["a", "b"]
 
 
+def test_the_logarithms_of_an_entropy_are_taken_apart_action_by_action() -> None:
+    # exp(h) = 6, 2 and 1 of 9: probabilities 2/3, 2/9 and 1/9.
+    features = {"l": [1, 1], "m": [1, 0], "r": [0, 0]}
+    given = {"theta": ["ln 2", "ln 3"], "features": features, "entropy": True}
+    working = rldrill.read({"family": "softmax-policy", "given": given}).working("c")
+    lines = [" ".join(line.split()).strip("= ") for line in str(working).splitlines()]
+    assert lines[-4:] == [
+        "H = −(2/3·ln(2/3) + 2/9·ln(2/9) + 1/9·ln(1/9))",
+        "−(2/3·(ln 2 − ln 3) + 2/9·(ln 2 − 2·ln 3) + 1/9·(−2·ln 3))",
+        "−2/3·ln 2 + 2/3·ln 3 − 2/9·ln 2 + 4/9·ln 3 + 2/9·ln 3",
+        "−8/9·ln 2 + 4/3·ln 3",
+    ]
+
+
 def test_a_factor_of_time_is_left_out_only_where_there_is_one() -> None:
     for name in ("reinforce", "reinforce-baseline", "actor-critic"):
         for level in (1, 2, 3):
