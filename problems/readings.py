@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from decimal import Decimal
+from decimal import Decimal, InvalidOperation
 from math import isqrt
 from typing import Any, TypeVar, cast
 
@@ -97,6 +97,6 @@ def several(written: Any) -> Sequence[Any]:
 def is_zero(written: object) -> bool:
     """Whether this is a number that is 0; what is none is refused where it is read."""
     try:
-        return float(str(written)) == 0
-    except ValueError:
+        return Decimal(str(written)) == 0
+    except InvalidOperation:
         return False

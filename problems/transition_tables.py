@@ -48,8 +48,9 @@ def read_transition_table(text: str) -> dict[str, Any]:
     begin = 1 if lines and re.fullmatch(r"sep=.", lines[0].strip(), re.IGNORECASE) else 0
     header = re.sub(r"\([^()]*\)", "", lines[begin]) if len(lines) > begin else ""  # R(s,a) is one column
     parted = max(",;\t", key=header.count)
+    rows = csv.reader(lines[begin:], delimiter=parted)
     try:
-        return _table(enumerate(csv.reader(lines[begin:], delimiter=parted), begin + 1), commas=parted != ",")
+        return _table(((begin + rows.line_num, row) for row in rows), commas=parted != ",")
     except csv.Error as error:
         raise ValueError(f"it is not parted into cells ({error}); look for a quote that is not closed") from None
 

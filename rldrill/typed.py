@@ -57,7 +57,10 @@ def _scalar(value: object, what: str) -> str:
             whole = value[:1] == "(" and value[-1:] == ")"
             return f"({value})" if _PARTING.search(value) and not whole else value  # it must not be read as several
         case Rational():
-            return str(value)
+            try:
+                return str(value)
+            except ValueError:
+                raise UsageError(f"{what} has more digits than anybody writes; give a shorter number.") from None
         case float() | Decimal() if math.isfinite(value):
             return float.__repr__(value) if isinstance(value, float) else str(value)
         case list() | tuple() | dict():

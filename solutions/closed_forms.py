@@ -3,6 +3,7 @@
 import operator
 from collections.abc import Callable
 from functools import reduce
+from threading import RLock
 from typing import TypeVar
 
 import sympy
@@ -11,6 +12,8 @@ from flint import arb, fmpq
 from rldrill.solutions.value import NotReal
 
 T = TypeVar("T")
+#: The precision of flint's balls is one for all threads: whoever sets it holds this until the work is done.
+PRECISELY = RLock()
 #: What is put in for each letter, by its name.
 Point = Callable[[str], fmpq]
 

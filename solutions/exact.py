@@ -15,7 +15,7 @@ from sympy.core.sympify import converter
 from rldrill.problems.exact import Logarithm, Parameter, Root, Weight, needed
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.solutions import surds
-from rldrill.solutions.closed_forms import Point, ball, fraction, rational
+from rldrill.solutions.closed_forms import PRECISELY, Point, ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
 from rldrill.solutions.rational import RationalFunction, generator
 from rldrill.solutions.value import NoSolution as NoSolution
@@ -308,7 +308,7 @@ def magnitude(value: Value) -> int:
         above = len(str(abs(value.p))) - len(str(value.q))  # flint's text, which has no limit
         return above if abs(value) >= fmpq(10) ** above else above - 1
     for precision in _PRECISIONS:
-        with ctx.workprec(precision):
+        with PRECISELY, ctx.workprec(precision):
             size = abs(enclosure(value))
             exponent = size.log() / arb(10).log()
             below, nearest = exponent.floor().unique_fmpz(), (exponent + _HALF).floor().unique_fmpz()
@@ -342,14 +342,14 @@ def clear_sign(value: Value, at: Point | None, precision: int) -> int | None:
     Raises:
         NotReal: the value is not a real number.
     """
-    with ctx.workprec(precision):
+    with PRECISELY, ctx.workprec(precision):
         ball = enclosure(value, at)
         return int(ball > 0) - int(ball < 0) if ball.is_finite() else None
 
 
 @lru_cache(maxsize=4096)
 def _near(value: Value) -> arb:
-    with ctx.workprec(_PRECISIONS[0]):
+    with PRECISELY, ctx.workprec(_PRECISIONS[0]):
         return enclosure(value)
 
 
@@ -359,7 +359,7 @@ def difference(first: Value, second: Value) -> arb:
     Raises:
         NotReal: one of them has no real value, or holds a parameter.
     """
-    with ctx.workprec(_PRECISIONS[0]):
+    with PRECISELY, ctx.workprec(_PRECISIONS[0]):
         return _near(first) - _near(second)
 
 

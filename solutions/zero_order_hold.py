@@ -7,6 +7,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from msgspec import Struct
 
 from rldrill.solutions import matrices
+from rldrill.solutions.closed_forms import PRECISELY
 from rldrill.solutions.exact import Value, enclosure
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.sheet.linear_methods import EULER_A, EULER_B, EULER_F, nilpotent_hold, scalar_hold
@@ -84,7 +85,7 @@ class ZeroOrderHold(Struct, frozen=True, dict=True):
     def _rounded(self, right: AnyMatrix, *, integral: bool) -> AnyMatrix:
         """The exponential, or its integral times a matrix, to twelve decimals: a block of a larger exponential."""
         n, columns = self.A.nrows(), right.ncols()
-        with ctx.workprec(_BITS):
+        with PRECISELY, ctx.workprec(_BITS):
             dt = enclosure(self.dt)
             rows = [
                 [*(enclosure(entry) * dt for entry in line), *(enclosure(entry) * dt for entry in beside)]

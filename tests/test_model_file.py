@@ -123,6 +123,7 @@ def test_a_process_without_actions(tmp_path: Path) -> None:
         ("a.csv", "s,a,s',r\n", "there is no transition below the header"),
         ("a.csv", CAR + "cool,slow\n", "line 8 has 2 entries, the header has 5"),
         ("a.csv", "s,s',r,done\nx,y,1,perhaps\n", "line 2: whether the episode ends is 'perhaps'; write true or false"),
+        ("a.csv", 's,a,s\',r\n"x\n y",go,z,1\ncool,slow\n', "line 4 has 2 entries, the header has 4"),
         ("a.md", "s, a, s', r\n", "there is no table; begin its lines with |, as in | state | action | next |"),
         ("a.md", "\n\n| s | a | s' | r |\n|---|---|---|---|\n| x | y |\n", "line 5 has 2 entries, the header has 4"),
         # 1,000 is one or a thousand.

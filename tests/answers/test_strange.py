@@ -1,15 +1,20 @@
 """Answers in strange forms: read as they are meant, or refused; never as something else, and never with a crash."""
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
+import sympy
+from flint import fmpq
 
 import rldrill
+from rldrill.problems.errors import UsageError
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.answers.names import options_named
 from rldrill.solutions.answers.rule import is_right
 from rldrill.solutions.answers.text import Unreadable, read_number, read_table, read_words, read_yes_no
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import magnitude, order
 
 
 def table(text: str, *keys: Any) -> list[str]:
@@ -149,3 +154,17 @@ def test_names_are_the_same_however_their_accents_are_written() -> None:
     )
     assert exercise.check(f"{apart}: 2", "a").accepted
     assert options_named("go", ["go", "stay"]) == ["go"]
+
+
+def test_a_number_of_five_thousand_digits_is_told() -> None:
+    with pytest.raises(UsageError, match="more digits than anybody writes"):
+        rldrill.read(RETURN).check(10**5000)
+
+
+def test_two_threads_compare_at_their_own_precision() -> None:
+    def compare(_: int) -> bool:
+        apart = sympy.sqrt(2) - fmpq(1, 10**30)
+        return order(apart, sympy.sqrt(2)) < 0 and magnitude(sympy.sqrt(10)) == 0
+
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(compare, range(400)))
