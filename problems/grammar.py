@@ -381,7 +381,8 @@ class _Parser:
     def _value(self, token: _Token, digits: str) -> Fraction:
         mantissa, _, exponent = digits.lower().partition("e")
         most = WHOLE_DIGITS if digits.isdigit() else DIGITS
-        if max(len(part) for part in mantissa.replace(".", "").split("/")) > most or abs(int(exponent or 0)) > DIGITS:
+        longest = max(len(part) for part in mantissa.replace(".", "").split("/"))
+        if longest > most or len(exponent) > most or abs(int(exponent or 0)) > DIGITS:
             raise self._error(f"{quoted(token.text)} is too long for a number; {most} digits are the most.", token)
         try:
             return fraction_of(digits)

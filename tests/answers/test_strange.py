@@ -161,6 +161,11 @@ def test_a_number_of_five_thousand_digits_is_told() -> None:
         rldrill.read(RETURN).check(10**5000)
 
 
+def test_an_exponent_of_five_thousand_digits_is_told() -> None:
+    with pytest.raises(Unreadable, match="is too long for a number"):
+        read_number(f"1e{'9' * 5000}", longest=6000)
+
+
 def test_two_threads_compare_at_their_own_precision() -> None:
     def compare(_: int) -> bool:
         apart = sympy.sqrt(2) - fmpq(1, 10**30)
