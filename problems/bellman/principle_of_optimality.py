@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, Parameter, is_scalar, read_scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
@@ -30,11 +30,21 @@ class Edge(NamedTuple):
     reward: Exact
 
 
+def _earning(row: object) -> object:
+    """A way with its cost as one with its reward; what is none is told as a row of edges is."""
+    match row:
+        case [state, after, cost] if is_scalar(cost) and not isinstance(read_scalar(cost), Parameter):
+            return [state, after, str(-Fraction(read_scalar(cost)))]
+    return row
+
+
 class Given(Givens):
     """A graph without cycles, where its paths start and end, and a state that some path is to go through."""
 
     edges: tuple[Edge, ...] = Field(
-        min_length=1, max_length=2000, description="The ways of the graph, which has no cycle."
+        min_length=1,
+        max_length=2000,
+        description="The ways of the graph, which has no cycle; or costs, the same with what each costs.",
     )
     start: Name = Field(description="Where the paths start.")
     goal: Name = Field(description="Where the paths end.")
@@ -42,6 +52,15 @@ class Given(Givens):
     story: str = Field(
         default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _earned(cls, data: object) -> object:
+        """Ways whose ``costs`` are given as edges, which earn what is negative."""
+        if not isinstance(data, dict) or "costs" not in data or "edges" in data or not isinstance(data["costs"], list):
+            return data
+        given = {name: field for name, field in data.items() if name != "costs"}
+        return given | {"edges": [_earning(row) for row in data["costs"]]}
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -28,7 +28,10 @@ def told(path: Path) -> Iterator[None]:
     try:
         yield
     except sqlite3.Error as error:
-        raise HistoryError(f"{path}: {error}.") from None
+        broken = any(said in str(error) for said in ("not a database", "malformed"))
+        raise HistoryError(
+            f"{path}: {error}{'; move it elsewhere, and a new one is begun' if broken else ''}."
+        ) from None
 
 
 def history_file() -> Path:

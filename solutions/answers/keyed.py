@@ -89,20 +89,27 @@ def _nested(body: Source, asked: Asked[Key]) -> list[_Item] | None:
         inner: dict[str, list[str]] = {}
         for key in pairs:
             inner.setdefault(key[outer], []).append(key[1 - outer])
-        found: list[_Item | None] = []
-        names: Sequence[str] = ()
-        head = ""
-        for piece in pieces:
-            rest = piece
-            if (begun := _HEAD.match(piece.text)) and (hits := matches(begun[1], [(each, each) for each in inner])):
-                head, names, rest = hits[0], inner[hits[0]], piece.part(begun.end(), len(piece.text))
-            inside = rest.unwrapped() if begun else None
-            for each in inside.split(",;\n|") if inside else [rest]:
-                found.append(_under(head, each, names, outer))
+        found = list(_under_heads(pieces, inner, outer))
         whole = [item for item in found if item]
-        if pieces and len(whole) == len(found):
+        if whole and len(whole) == len(found):
             return whole
     return None
+
+
+def _under_heads(pieces: Sequence[Source], inner: dict[str, list[str]], outer: int) -> Iterator[_Item | None]:
+    """The items of pieces, as far as they are those of a head: None is the last of them where one is none."""
+    head = ""
+    for piece in pieces:
+        rest = piece
+        begun = _HEAD.match(piece.text)
+        if begun and (hits := matches(begun[1], [(each, each) for each in inner])):
+            head, rest = hits[0], piece.part(begun.end(), len(piece.text))
+        inside = rest.unwrapped() if begun else None
+        for each in inside.split(",;\n|") if inside else [rest]:
+            item = _under(head, each, inner.get(head, ()), outer)
+            yield item
+            if item is None:
+                return
 
 
 def _under(head: str, piece: Source, names: Sequence[str], outer: int) -> _Item | None:

@@ -22,6 +22,7 @@ _INDEX = re.compile(r"(?<=\w)\((\d+)\)|_\{([^{}]*)\}")  # pi(1), s_{1}
 _SPELLED_OUT = str.maketrans({glyph: name for name, glyph in GREEK.items()} | {"π": "pi", "∂": "d"})
 _SQUARE = re.compile(r"(?:σ|sigma)(.*?)\s*(?:\^\s*\{?2\}?|²)")  # a variance, which is called Σ, too
 _DEVIATION = re.compile(r"σ|sigma")
+_COUNTED = re.compile(r"(?<=.)\^?\{?\([0-9⁰¹²³⁴⁵⁶⁷⁸⁹]+\)\}?$")
 _LISTED = 60
 _LONGEST = 120  # longer names are none
 _WAYS = {
@@ -257,6 +258,8 @@ def entry_named(label: str, names: Sequence[str], called: Sequence[str] = ()) ->
         if len(hits) == 1:
             return hits[0]
     begun = [index for index, word in enumerate(called) if word.startswith(label.casefold())]
+    if not begun and (bare := _COUNTED.sub("", label)) != label:
+        return entry_named(bare, names, called)  # R_0^(3), where three steps go to the end and it is R_0
     return begun[0] if len(begun) == 1 else None
 
 

@@ -69,6 +69,7 @@ _WHY = re.compile(r"\s*(?:[,;:(–—]|\.(?!\w))\s*|\s+(?:-|as)\s+")
 _BECAUSE = re.compile(r"[\s,;:.(–—-]+(?:because|since|weil)\b.*", re.DOTALL | re.IGNORECASE)
 #: A comparison in brackets behind a word.
 _COMPARED = re.compile(r"(?<=\w)\s*\([^()]*[<>=≤≥≠][^()]*\)$")
+_REMARK = re.compile(r"(?<=\w)\s+\([^()]*\)$")
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
 _RELATION = re.compile(r"[<>!]=|=[<>]|[≤≥≠]")
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
@@ -77,6 +78,8 @@ _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _BARS = re.compile(r"\|([^\s|](?:[^|\n]*[^\s|])?)\|")  # a cell of a table has spaces at its edges
 #: A normal distribution, by its mean and variance: N(5, 6).
 _NORMAL = re.compile(r"(?:[^=~∼]*[=~∼])?\s*N\s*(?=[(\[])", re.DOTALL)
+#: A vector in angle brackets: <24, -12>.
+_ANGLES = re.compile(r"\A\s*<([^<>]+)>\s*\Z")
 _BY_MEAN = ("mean",)
 #: Odds: 2:15.
 _ODDS = re.compile(r"\s*([0-9./]+)\s*:\s*([0-9./]+)\s*")
@@ -140,7 +143,7 @@ def read_vector(
     """
     if length == 1:
         return (read_number(text.rstrip(" ,;"), parameters, longest),)
-    source = clean(text, longest)
+    source = clean(_ANGLES.sub(r"(\1)", text), longest)
     if called[:1] == _BY_MEAN and (normal := _NORMAL.match(source.text)):
         source = source.part(normal.end(), len(source.text))
 
@@ -409,6 +412,9 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     typed = _flattened(unquoted(source.text))
     spellings = [(_flattened(told), letter) for letter, told in options.items()]
     typed = _SAID.sub("", typed)
+    remark = _REMARK.search(typed)
+    if remark and not matches(typed, spellings) and not _names_option(remark[0], options):
+        typed = typed[: remark.start()]  # large (lower BIC)
     both = _BOTH.fullmatch(typed)
     if both and (lettered := _lettered(both[1], options)):
         told = _told(both[2], spellings)
@@ -417,7 +423,7 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
         if told:
             raise source.unreadable(f"{quoted(typed)} has the letter of one option and words of another; type one.")
     first, *why = _WHY.split(typed, maxsplit=1)
-    if why and _lettered(first, options) and not any(re.search(rf"\b{letter}\b", why[0]) for letter in options):
+    if why and _lettered(first, options) and not _names_option(why[0], options):
         typed = first  # A, lower BIC
     alone = re.fullmatch(r"\(?([A-Za-z])[).:]?", typed)
     lettered = _lettered(alone[1], options) if alone else []
@@ -433,6 +439,11 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
 def _flattened(text: str) -> str:
     """A text without the signs that only set its mathematics: ``Q*`` for ``$Q^*$``."""
     return re.sub(r"[$^{}]", "", text)
+
+
+def _names_option(reason: str, options: Iterable[str]) -> bool:
+    """Whether the letter of an option stands alone in what is said behind another one."""
+    return any(re.search(rf"\b{letter}\b", reason) for letter in options)
 
 
 def _lettered(typed: str, options: Iterable[str]) -> list[str]:

@@ -447,6 +447,14 @@ def test_a_normal_distribution_tells_mean_and_variance(text: str) -> None:
     assert [entry.value for entry in read_vector(text, 2, **MOMENTS)] == [5, 3]
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["R0(1) = 5, R0(2) = 3", "R₀⁽²⁾ = 3, R₀⁽¹⁾ = 5", "R_0^(1) = 5; R_0^{(2)} = 3", "R0(1) = 5, R0 = 3", "<5, 3>"],
+)
+def test_the_return_of_all_steps_may_be_counted_like_the_others(text: str) -> None:
+    assert [entry.value for entry in read_vector(text, 2, names=("R_0^(1)", "R_0"))] == [5, 3]
+
+
 def test_a_line_has_a_slope_and_an_intercept() -> None:
     told = {"names": ("θ̂_1", "θ̂_0"), "called": ("slope", "intercept")}
     for text in ("intercept 3, slope 2", "slope = 2, intercept = 3", "θ_0 = 3, θ_1 = 2"):

@@ -90,7 +90,9 @@ def test_a_database_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     (tmp_path / "history.db").write_text("a shopping list " * 100)
     result = CliRunner().invoke(app, ["stats"], env={"RLDRILL_HOME": str(tmp_path)})
     assert isinstance(result.exception, HistoryError)
-    assert f"{tmp_path / 'history.db'}: file is not a database." in str(result.exception)
+    assert f"{tmp_path / 'history.db'}: file is not a database; move it elsewhere, and a new one is begun." in str(
+        result.exception
+    )
 
 
 def test_every_kind_of_cause_has_words_of_its_own() -> None:

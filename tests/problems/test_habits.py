@@ -142,3 +142,16 @@ def test_the_cost_at_the_horizon_by_its_other_names() -> None:
     given = {"A": 1, "B": 1, "Q": 0, "Qf": 1, "R": 1, "start": 1, "horizon": 2}
     answers = rldrill.read({"family": "lqr-backward", "given": given}).answers()
     assert (answers["a"], answers["c"]) == (((Fraction(1, 2),),), ((Fraction(1, 3),),))
+
+
+def test_ways_may_have_costs() -> None:
+    """S, A, B, G costs 1 + 2 + 3 = 6; S, A, G and S, B, G cost 7 each."""
+    costs = [["S", "A", 1], ["S", "B", "4"], ["A", "B", 2], ["A", "G", 6], ["B", "G", "3"]]
+    given = {"start": "S", "goal": "G", "costs": costs}
+    answers = rldrill.read({"family": "principle-of-optimality", "given": given}).answers()
+    assert answers == {"a": {"S": -6, "A": -5, "B": -3}, "b": {"S": "A", "A": "B"}}
+    for wrong in (["S", "A"], ["S", "A", "x"], ["S", "A", "far"]):
+        with pytest.raises(FileError, match="edges"):
+            family("principle-of-optimality").read(given | {"costs": [wrong]})
+    with pytest.raises(FileError, match="costs is not a field"):
+        family("principle-of-optimality").read(given | {"edges": costs})
