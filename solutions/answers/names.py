@@ -114,6 +114,7 @@ def _candidates(name: str) -> list[str]:
     return [name, *(next(filter(None, match.groups()), "") for match in found)]
 
 
+@lru_cache(maxsize=4096)
 def _spread(name: str) -> str:
     return re.sub(r"[\s,/|;()]+", " ", name).strip()
 
