@@ -58,6 +58,7 @@ class Search:
         self._unfinished: Iterator[Candidate | None] | None = None
         self._alternatives: dict[int, list[Cause]] = {}
         self._responses: dict[int, list[tuple[list[Any] | None, Mapping[str, Any] | None]]] = {}
+        self._alone: dict[Candidate, Mapping[str, Any] | None] = {}
 
     @cached_property
     def work(self) -> Recorder:
@@ -102,6 +103,12 @@ class Search:
         yield from self._equations()
         yield from self._same_rows()
         yield from self._unknowns()
+
+    def alone(self, candidate: Candidate) -> Mapping[str, Any] | None:
+        """The answers to each part of somebody who had the right ones to all parts before; for all parts at once."""
+        if candidate not in self._alone:
+            self._alone[candidate] = candidate.again(self.solution.answers)
+        return self._alone[candidate]
 
     def _mistaken(self, mistake: Misconception, settled: Mapping[str, Any]) -> Mapping[str, Any] | None:
         return self.solution.answers_with(mistake, {**self.carried, **settled})
