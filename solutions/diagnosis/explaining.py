@@ -12,7 +12,7 @@ from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.outcomes import Outcome, Outcomes
 from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.diagnosis.weighing import Weighing, room
-from rldrill.solutions.diagnosis.weights import ALIKE
+from rldrill.solutions.diagnosis.weights import ALIKE, SLIPS
 
 #: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number
 #: from nowhere in twenty is accused of something.
@@ -109,6 +109,8 @@ def _alike(one: Cause, two: Cause) -> bool:
         return one.mistake.says == two.mistake.says
     if one.mistake or two.mistake:
         return _is_stated(one, two) or _is_stated(two, one)
+    if {one.kind, two.kind} <= SLIPS and (one.probe is None) == (two.probe is None):
+        return True
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
 
 

@@ -3,6 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
+from itertools import product
 from typing import Any
 
 import sympy
@@ -16,8 +17,10 @@ from rldrill.solutions.diagnosis.alternatives import (
     can_be_made,
     hashable,
     is_sensible,
+    likely_share,
     numbers,
     of_numbers,
+    shares,
     single,
     terms,
 )
@@ -45,6 +48,9 @@ from rldrill.solutions.solution import Solution
 _NUMBERS, _CHECKS = 9, 2
 #: So many causes of the same value are told apart.
 _ALIKE = 4
+#: So often equations are applied by somebody who does not solve them.
+_SWEEPS = 3
+TIMES = ("once", "twice", "three times")
 
 
 class Search:
@@ -103,6 +109,7 @@ class Search:
         yield from self._equations()
         yield from self._same_rows()
         yield from self._unknowns()
+        yield from self._unsolved()
 
     def alone(self, candidate: Candidate) -> Mapping[str, Any] | None:
         """The answers to each part of somebody who had the right ones to all parts before; for all parts at once."""
@@ -253,6 +260,14 @@ class Search:
                 if other != equation.value:
                     yield from self._candidate(Cause(kind, weights.PROCEDURE[kind]), Change(equated={number: other}))
 
+    def _unsolved(self) -> Iterator[Candidate]:
+        """Systems of equations that are applied a few times, from 0 on, instead of solved."""
+        if not any(application.equation for application in self.applications):
+            return
+        for sweeps, in_place in product(range(1, _SWEEPS + 1), (False, True)):
+            cause = Cause("unsolved", weights.PROCEDURE["unsolved"], what=TIMES[sweeps - 1])
+            yield from self._candidate(cause, Change(sweeps=sweeps, in_place=in_place))
+
     def _in_equation(self, application: Application) -> Iterator[tuple[Cause, Expr, dict[str, Any]]]:
         letters = application.names
         case = {f"case_{name}": value for name, value in letters.items()}
@@ -285,6 +300,8 @@ class Search:
             return
         every = []
         for cause in at_one(application, self.problem.given):
+            if cause.kind in weights.VALUES and application.number in self._shares:
+                cause = replace(cause, weight=cause.weight * likely_share(cause.became))
             every.append(cause)
             yield
         found: dict[Any, list[Cause]] = defaultdict(list)
@@ -296,6 +313,10 @@ class Search:
         found.pop(hashable(application.value), None)
         apart = (cause for alike in found.values() for cause in alike)
         self._alternatives[application.number] = sorted(apart, key=lambda cause: -cause.weight)
+
+    @cached_property
+    def _shares(self) -> set[int]:
+        return shares(self.applications)
 
     # How answers depend on one value ----------------------------------------------------------------
     def responses(self, application: Application) -> list[tuple[list[Any] | None, Mapping[str, Any] | None]]:
