@@ -1,6 +1,7 @@
 """What may come out of one application of a formula instead of its value."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from itertools import groupby
 from math import isclose
 from typing import Any
@@ -139,8 +140,7 @@ def _of_table(application: Application, base: Cause) -> Iterator[Cause]:
 def _other_matrices(application: Application, base: Cause) -> Iterator[Cause]:
     """Another given matrix of the same shape in the place of one: R for Q."""
     right, known = application.right, application.known
-    letters = {each for each in right.atoms(sympy.Symbol, Quantity) if each.is_commutative is False}
-    for part in sorted(letters, key=str):
+    for part in _of_matrices(right, sympy.Symbol, Quantity):
         name = part.code if isinstance(part, Quantity) else part.name
         was = value_or_none(part, known)
         if not is_matrix(was):
@@ -160,10 +160,9 @@ def _other_matrices(application: Application, base: Cause) -> Iterator[Cause]:
 def _inverses(application: Application, base: Cause) -> Iterator[Cause]:
     """The inverse of a 2×2 matrix by its rule, with one step of the rule forgotten."""
     right, known = application.right, application.known
-    for part in sorted(right.atoms(sympy.Pow), key=str):
-        if part.is_commutative is not False or part.args[1] != -1 or not is_matrix(was := value_or_none(part, known)):
-            continue
-        if (was.nrows(), was.ncols()) != (2, 2):
+    for part in _of_matrices(right, sympy.Pow):
+        was = value_or_none(part, known) if part.args[1] == -1 else None
+        if not is_matrix(was) or (was.nrows(), was.ncols()) != (2, 2):
             continue
         (a, b), (c, d) = was.tolist()
         determinant = 1 / (a * d - b * c)  # that of the matrix itself
@@ -176,6 +175,12 @@ def _inverses(application: Application, base: Cause) -> Iterator[Cause]:
             if same_form(became, application.value):
                 probe = Probe(part.args[0], right)
                 yield replace(base, kind=kind, weight=weights.INSIDE[kind], probe=probe, was=was, became=became)
+
+
+@cache
+def _of_matrices(right: Expr, *kinds: type[Expr]) -> Sequence[Expr]:
+    """The parts of a right side of some kinds that are, or hold, matrices."""
+    return sorted((each for each in right.atoms(*kinds) if each.is_commutative is False), key=str)
 
 
 def _with_inverse(right: Expr, part: Expr) -> Expr:
