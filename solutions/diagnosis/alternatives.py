@@ -69,7 +69,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
         if edit.kind in IN_ONE_TERM:
             pass
-        elif is_sensible(edit) and same_form(other := value_or_none(edit.right, known), value):
+        elif is_sensible(edit) and same_form(other := _outcome(edit.right, known), value):
             if weights.IDEAS[edit.kind] >= PLAIN:
                 edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
@@ -82,7 +82,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
     for mistake, misread in formula.misread.items():
         if not can_be_made(mistake, given):
             continue
-        other = value_or_none(misread, known)
+        other = _outcome(misread, known)
         if same_form(other, value) and hashable(other) not in edited:
             yield replace(base, kind="listed", weight=weights.STATED * weights.AT_ONE, mistake=mistake, became=other)
     if (crosswise := _crosswise(flat(right), known)) is not None:
@@ -287,6 +287,12 @@ def value_or_none(right: Expr, known: Mapping[str, Any]) -> Any:
         return value_of(right, known)
     except UNDONE:
         return None
+
+
+def _outcome(right: Expr, known: Mapping[str, Any]) -> Any:
+    """What comes out of a right side that may be a whole number and nothing else: 0 without any choice."""
+    value = value_or_none(right, known)
+    return fmpq(value) if isinstance(value, int) else value
 
 
 def terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tuple[Any, ...], dict[str, Any]]]:

@@ -5,7 +5,7 @@ from functools import cache
 from typing import Any
 
 from msgspec import Struct
-from sympy import Expr
+from sympy import Expr, preorder_traversal
 
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
@@ -80,11 +80,16 @@ def _with_its_like(
     group = next(group for group in groups if group[0] == first)
     for other in group[1:]:
         another = causes[other]
-        if another.edit is None or another.edit.part == edit.part or another.kind != causes[first].kind:
+        if another.edit is None or another.kind != causes[first].kind or _overlap(edit.part, another.edit.part):
             continue
         if shares[other] >= AS_LIKELY * shares[first]:
             return [(share - shares[other], first), (shares[other], other)]
     return told
+
+
+def _overlap(one: Expr, other: Expr) -> bool:
+    """Whether one part of a formula is in the other."""
+    return one in preorder_traversal(other) or other in preorder_traversal(one)
 
 
 def giving(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[str, Any]) -> tuple[list[Outcome], bool]:
@@ -111,7 +116,8 @@ def distinct(causes: Sequence[Cause]) -> list[list[int]]:
     groups: list[list[int]] = []
     for number, cause in enumerate(causes):
         for group in groups:
-            if _alike(cause, causes[group[0]]):
+            stated = (one for one in group[1:] if causes[one].mistake is not None)
+            if any(_alike(cause, causes[one]) for one in (group[0], *stated)):
                 group.append(number)
                 break
         else:

@@ -614,6 +614,10 @@ with evaluate(False):
     PRIORS_FORGOTTEN = Misconception(
         "priors-forgotten", "The priors count, too: the ratio of the evidences is multiplied by that of the priors."
     )
+    SHARE_FOR_ODDS = Misconception(
+        "share-for-odds",
+        "Odds divide the one posterior probability by the other; divided by the sum of both it is a probability.",
+    )
     POSTERIOR_ODDS = Formula(
         "posterior-odds",
         of_model(first_model) / of_model(second_model),
@@ -624,6 +628,9 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             PRIORS_FORGOTTEN: evidence(first_model) / evidence(second_model),
+            SHARE_FOR_ODDS: evidence(first_model)
+            * p(first_model)
+            / (evidence(first_model) * p(first_model) + evidence(second_model) * p(second_model)),
         },
     )
 
