@@ -172,9 +172,6 @@ with evaluate(False):
     WIDTH_DOUBLED = Misconception(
         "width-doubled", "The feature falls from 1 to 0 within the distance b from its centre, not within 2b."
     )
-    ENDS_TOO_SOON = Misconception(
-        "ends-too-soon", "The feature is 0 from the distance b on, and not before: nearer to its centre it is above 0."
-    )
     PIECEWISE_LINEAR_RBF = Formula(
         "piecewise-linear-rbf",
         phi(i, s),
@@ -188,7 +185,6 @@ with evaluate(False):
             WIDTH_AND_CLAMP_FORGOTTEN: 1 - distance(i),
             TENT_SQUARED: Greatest(Zero, 1 - (distance(i) / width) ** 2),
             WIDTH_DOUBLED: Greatest(Zero, 1 - distance(i) / (2 * width)),
-            ENDS_TOO_SOON: Zero,
         },
     )
     TENT_INSIDE = Formula(
