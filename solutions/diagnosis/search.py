@@ -300,8 +300,8 @@ class Search:
             return
         every = []
         for cause in at_one(application, self.problem.given):
-            if cause.kind in weights.VALUES and application.number in self._shares:
-                cause = replace(cause, weight=cause.weight * likely_share(cause.became))
+            if application.number in self._shares:
+                cause = self._in_a_share(cause)
             every.append(cause)
             yield
         found: dict[Any, list[Cause]] = defaultdict(list)
@@ -313,6 +313,13 @@ class Search:
         found.pop(hashable(application.value), None)
         apart = (cause for alike in found.values() for cause in alike)
         self._alternatives[application.number] = sorted(apart, key=lambda cause: -cause.weight)
+
+    @staticmethod
+    def _in_a_share(cause: Cause) -> Cause:
+        """A cause in one share of several: no slip makes it larger than 1, and a formula is misread for all of them."""
+        if cause.mistake is not None:
+            return replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
+        return replace(cause, weight=cause.weight * likely_share(cause.became)) if cause.edit is None else cause
 
     @cached_property
     def _shares(self) -> set[int]:
