@@ -93,7 +93,7 @@ VALUES = {
 #: Slips in a value that is put in, or found on the way.
 INSIDE = {
     "crosswise": 1.5, "complement": 1.0, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5,
-    "another-line": 2.0, "stale": 2.5,
+    "another-line": 1.4, "stale": 2.5,
     "digits": 0.6, "one-off": 0.5, "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4,
     "lost-term": 1.0, "term-sign": 1.0, "term-tenfold": 0.5,
     "inverse-signs": 3.0, "inverse-diagonal": 2.5, "inverse-undivided": 2.5,
