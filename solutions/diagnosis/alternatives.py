@@ -117,7 +117,7 @@ def shares(applications: Sequence[Application]) -> set[int]:
 
 def likely_share(value: Any) -> float:
     """How likely it is that somebody takes a value for a share of 1, with a slip in it."""
-    return 1.0 if 0 <= approximate(value) <= 1 else weights.NO_SHARE
+    return 1.0 if abs(approximate(value)) <= 1 else weights.NO_SHARE
 
 
 def _of_table(application: Application, base: Cause) -> Iterator[Cause]:

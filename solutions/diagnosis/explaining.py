@@ -135,7 +135,7 @@ def _alike(one: Cause, two: Cause) -> bool:
         return one.mistake.says == two.mistake.says
     if one.mistake or two.mistake:
         return _is_stated(one, two) or _is_stated(two, one)
-    if {one.kind, two.kind} <= SLIPS and (one.probe is None) == (two.probe is None):
+    if {one.kind, two.kind} <= SLIPS and one.probe is None and two.probe is None:
         return True
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
 
