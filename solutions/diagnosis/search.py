@@ -319,7 +319,9 @@ class Search:
         """A cause in one share of several: no slip makes it larger than 1, and a formula is misread for all of them."""
         if cause.mistake is not None:
             return replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
-        return replace(cause, weight=cause.weight * likely_share(cause.became)) if cause.edit is None else cause
+        if cause.edit is not None or cause.kind not in weights.SLIPS:  # a point or a digit slips in any number
+            return cause
+        return replace(cause, weight=cause.weight * likely_share(cause.became))
 
     @cached_property
     def _shares(self) -> set[int]:

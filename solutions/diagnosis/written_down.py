@@ -39,7 +39,7 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
     of_shares = of_shares and isclose(sum(map(approximate, key.values())), 1.0)
     for name, value in key.items():
         for slip, other in slips(value):
-            likely = likely_share(other) if of_shares else 1.0
+            likely = likely_share(other) if of_shares and slip in weights.SLIPS else 1.0
             yield _cause(slip, name if len(key) > 1 else "", likely), {**key, name: other}
     if len(key) == 1:
         ((name, value),) = key.items()
