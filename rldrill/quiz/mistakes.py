@@ -4,8 +4,8 @@
 _CALLED = {
     "added": "added for multiplied",
     "all-signs": "all signs turned",
-    "another-quantity": "another quantity than the one asked for",
     "another-line": "another line of the table",
+    "another-quantity": "another quantity than the one asked for",
     "answer-scaled": "all entries off by one factor",
     "answer-transposed": "rows and columns exchanged",
     "as-given": "what was given, for what comes of it",
@@ -36,6 +36,9 @@ _CALLED = {
     "halved": "halved by mistake",
     "index": "a wrong index",
     "inverse": "an inverse taken or forgotten",
+    "inverse-diagonal": "an inverse with its diagonal not exchanged",
+    "inverse-signs": "an inverse with signs not turned",
+    "inverse-undivided": "an inverse not divided by the determinant",
     "kept": "the old value kept",
     "lost-term": "a term lost on the way",
     "minus-lost": "a minus lost",
@@ -73,6 +76,7 @@ _CALLED = {
     "twice": "a term counted twice",
     "twin": "a quantity for its like",
     "unknown-moved": "an unknown moved without its sign",
+    "unsolved": "equations applied instead of solved",
     "upside-down": "a fraction upside down",
 }
 

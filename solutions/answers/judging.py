@@ -201,7 +201,11 @@ def _judge(
 
 
 def _says_wrong(named: Sequence[str], cells: int) -> str:
-    return f"Not right at {'; '.join(named)}; the rest is right." if 0 < len(named) < cells else "Not right."
+    if not 0 < len(named) < cells:
+        return "Not right."
+    *first, last = named
+    between = "; " if any(", " in name for name in named) else ", "
+    return f"Not right at {f'{between.join(first)} and ' if first else ''}{last}; the rest is right."
 
 
 def credit(kind: Kind, cells: int, wrong: int) -> Fraction:

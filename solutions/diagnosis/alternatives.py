@@ -1,6 +1,9 @@
 """What may come out of one application of a formula instead of its value."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from itertools import groupby
+from math import isclose
 from typing import Any
 
 import sympy
@@ -17,8 +20,9 @@ from rldrill.solutions.exact import is_rational, parameters
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, flat, probes
 from rldrill.solutions.formula.formula import Misconception
+from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.sets import Over
-from rldrill.solutions.formula.notation import Quantity, SumOver
+from rldrill.solutions.formula.notation import Quantity, SumOver, letter
 from rldrill.solutions.matrices import is_matrix, matrix
 from rldrill.solutions.rational import generator
 from rldrill.solutions.vector import Vector
@@ -33,6 +37,8 @@ LIKELY = 1.5
 SURER = 1.0
 #: An edit of this weight says at one place better what was done than a mistake that is stated of the whole formula.
 PLAIN = 6.0
+#: Stands for an inverse that somebody works out wrongly.
+_INVERSE = letter("inverse_", "X", matrix=True)
 
 
 def can_be_made(mistake: Misconception, given: Any) -> bool:
@@ -63,7 +69,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
         if edit.kind in IN_ONE_TERM:
             pass
-        elif is_sensible(edit) and same_form(other := value_or_none(edit.right, known), value):
+        elif is_sensible(edit) and same_form(other := _outcome(edit.right, known), value):
             if weights.IDEAS[edit.kind] >= PLAIN:
                 edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
@@ -76,18 +82,42 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
     for mistake, misread in formula.misread.items():
         if not can_be_made(mistake, given):
             continue
-        other = value_or_none(misread, known)
+        other = _outcome(misread, known)
         if same_form(other, value) and hashable(other) not in edited:
             yield replace(base, kind="listed", weight=weights.STATED * weights.AT_ONE, mistake=mistake, became=other)
     if (crosswise := _crosswise(flat(right), known)) is not None:
         whole = Probe(right, right)
         yield replace(base, kind="crosswise", weight=weights.INSIDE["crosswise"], probe=whole, became=crosswise)
     yield from _other_matrices(application, base)
+    yield from _inverses(application, base)
     for probe in probes(right):
         for cause, letters in at_place(application, probe):
             other = value_or_none(probe.right, {**known, **letters})
             if same_form(other, value):
                 yield replace(cause, became=other)
+
+
+def shares(applications: Sequence[Application]) -> set[int]:
+    """The numbers of applications whose values sum to 1 with those beside them: nobody takes more for a share."""
+    found: set[int] = set()
+    for _, alike in groupby(applications, key=lambda each: each.right):
+        some: list[int] = []
+        total = 0.0
+        for application in alike:
+            size = approximate(application.value) if plain(application.value) else -1.0
+            if not 0 <= size <= 1:
+                break
+            some.append(application.number)
+            total += size
+            if isclose(total, 1.0):
+                found.update(some if len(some) > 1 else ())
+                some, total = [], 0.0
+    return found
+
+
+def likely_share(value: Any) -> float:
+    """How likely it is that somebody takes a value for a share of 1, with a slip in it."""
+    return 1.0 if abs(approximate(value)) <= 1 else weights.NO_SHARE
 
 
 def _of_table(application: Application, base: Cause) -> Iterator[Cause]:
@@ -110,8 +140,7 @@ def _of_table(application: Application, base: Cause) -> Iterator[Cause]:
 def _other_matrices(application: Application, base: Cause) -> Iterator[Cause]:
     """Another given matrix of the same shape in the place of one: R for Q."""
     right, known = application.right, application.known
-    letters = {each for each in right.atoms(sympy.Symbol, Quantity) if each.is_commutative is False}
-    for part in sorted(letters, key=str):
+    for part in _of_matrices(right, sympy.Symbol, Quantity):
         name = part.code if isinstance(part, Quantity) else part.name
         was = value_or_none(part, known)
         if not is_matrix(was):
@@ -126,6 +155,42 @@ def _other_matrices(application: Application, base: Cause) -> Iterator[Cause]:
                 yield replace(
                     base, kind="elsewhere", weight=weight, probe=Probe(part, right), was=was, other=other, became=became
                 )
+
+
+def _inverses(application: Application, base: Cause) -> Iterator[Cause]:
+    """The inverse of a 2×2 matrix by its rule, with one step of the rule forgotten."""
+    right, known = application.right, application.known
+    for part in _of_matrices(right, sympy.Pow):
+        was = value_or_none(part, known) if part.args[1] == -1 else None
+        if not is_matrix(was) or (was.nrows(), was.ncols()) != (2, 2):
+            continue
+        (a, b), (c, d) = was.tolist()
+        determinant = 1 / (a * d - b * c)  # that of the matrix itself
+        for kind, rows in (
+            ("inverse-signs", [[a, -b], [-c, d]]),
+            ("inverse-diagonal", [[d, b], [c, a]]),
+            ("inverse-undivided", [[each * determinant for each in row] for row in ((a, b), (c, d))]),
+        ):
+            became = value_or_none(_with_inverse(right, part), {**known, _INVERSE.name: matrix(rows)})
+            if same_form(became, application.value):
+                probe = Probe(part.args[0], right)
+                yield replace(base, kind=kind, weight=weights.INSIDE[kind], probe=probe, was=was, became=became)
+
+
+@cache
+def _of_matrices(right: Expr, *kinds: type[Expr]) -> Sequence[Expr]:
+    """The parts of a right side of some kinds that are, or hold, matrices."""
+    return sorted((each for each in right.atoms(*kinds) if each.is_commutative is False), key=str)
+
+
+def _with_inverse(right: Expr, part: Expr) -> Expr:
+    """A right side in which a letter stands for one inverse, its factors in their order."""
+    if right == part:
+        return _INVERSE
+    if not right.args or isinstance(right, Quantity):
+        return right
+    arguments = [_with_inverse(argument, part) for argument in right.args]
+    return right.func(*arguments, **({} if isinstance(right, Node) else {"evaluate": False}))
 
 
 def at_place(application: Application, probe: Probe) -> Iterator[tuple[Cause, dict[str, Any]]]:
@@ -222,6 +287,12 @@ def value_or_none(right: Expr, known: Mapping[str, Any]) -> Any:
         return value_of(right, known)
     except UNDONE:
         return None
+
+
+def _outcome(right: Expr, known: Mapping[str, Any]) -> Any:
+    """What comes out of a right side that may be a whole number and nothing else: 0 without any choice."""
+    value = value_or_none(right, known)
+    return fmpq(value) if isinstance(value, int) else value
 
 
 def terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tuple[Any, ...], dict[str, Any]]]:

@@ -5,14 +5,14 @@ from functools import cache
 from typing import Any
 
 from msgspec import Struct
-from sympy import Expr
+from sympy import Expr, preorder_traversal
 
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.outcomes import Outcome, Outcomes
 from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.diagnosis.weighing import Weighing, room
-from rldrill.solutions.diagnosis.weights import ALIKE
+from rldrill.solutions.diagnosis.weights import ALIKE, SLIPS
 
 #: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number
 #: from nowhere in twenty is accused of something.
@@ -21,6 +21,8 @@ ENOUGH, TOLD = 0.57, 0.4
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
 NEAR, MOST = 0.15, 2
+#: From this share of the likeliest on another cause is about as likely.
+AS_LIKELY = 0.8
 #: As many answers there must be that could have been typed, before two causes together are believed.
 ROOM_FOR_TWO = 20_000
 #: Of so few answers one proves nothing: yes or no, a choice, an action or two.
@@ -51,6 +53,7 @@ def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[s
     enough = sum(shares) >= ENOUGH and sum(share for share, _ in told) >= TOLD
     if not enough or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
+    told = _with_its_like(told, groups, causes, shares)
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
 
 
@@ -65,6 +68,28 @@ def likeliest(shares: Sequence[float], groups: Sequence[Sequence[int]]) -> list[
     found.sort(key=lambda each: -each[0])
     told = [each for each in found[:MOST] if each[0] >= NEAR * found[0][0]]
     return sorted(told, key=lambda each: -shares[each[1]])
+
+
+def _with_its_like(
+    told: list[tuple[float, int]], groups: Sequence[Sequence[int]], causes: Sequence[Cause], shares: Sequence[float]
+) -> list[tuple[float, int]]:
+    """What is told; beside one edit alone also that of another part, of the same step and kind, and about as likely."""
+    if len(told) == MOST or (edit := causes[told[0][1]].edit) is None:
+        return told
+    share, first = told[0]
+    group = next(group for group in groups if group[0] == first)
+    for other in group[1:]:
+        another = causes[other]
+        if another.edit is None or another.kind != causes[first].kind or _overlap(edit.part, another.edit.part):
+            continue
+        if shares[other] >= AS_LIKELY * shares[first]:
+            return [(share - shares[other], first), (shares[other], other)]
+    return told
+
+
+def _overlap(one: Expr, other: Expr) -> bool:
+    """Whether one part of a formula is in the other."""
+    return one in preorder_traversal(other) or other in preorder_traversal(one)
 
 
 def giving(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[str, Any]) -> tuple[list[Outcome], bool]:
@@ -91,7 +116,8 @@ def distinct(causes: Sequence[Cause]) -> list[list[int]]:
     groups: list[list[int]] = []
     for number, cause in enumerate(causes):
         for group in groups:
-            if _alike(cause, causes[group[0]]):
+            stated = (one for one in group[1:] if causes[one].mistake is not None)
+            if any(_alike(cause, causes[one]) for one in (group[0], *stated)):
                 group.append(number)
                 break
         else:
@@ -109,6 +135,8 @@ def _alike(one: Cause, two: Cause) -> bool:
         return one.mistake.says == two.mistake.says
     if one.mistake or two.mistake:
         return _is_stated(one, two) or _is_stated(two, one)
+    if {one.kind, two.kind} <= SLIPS and one.probe is None and two.probe is None:
+        return True
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
 
 

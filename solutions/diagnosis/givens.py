@@ -12,6 +12,31 @@ from rldrill.problems.fractions import Fraction
 #: At most so many values of a table are tried one by one.
 _MOST = 24
 
+#: What the entries of a list are called, where the name of its field says that of none of them.
+_ENTRIES = {
+    "A": "rows of A",
+    "B": "rows of B",
+    "L": "rows of L",
+    "P": "rows of P",
+    "deviation": "entries of the deviation",
+    "expert": "entries of the expert",
+    "first": "first numbers",
+    "gradient": "entries of the gradient",
+    "mean": "entries of the mean",
+    "mu": "feature expectations",
+    "planned": "planned pairs",
+    "point": "coordinates of the point",
+    "position": "coordinates of the position",
+    "repeated": "repeated rewards",
+    "run": "steps of the run",
+    "start": "entries of the start",
+    "table": "rows of the table",
+    "theta": "weights",
+    "thetas": "values of θ",
+    "velocity": "entries of the velocity",
+    "w": "weights",
+}
+
 
 class Misread(Struct, frozen=True):
     """Givens in which one thing is read wrongly, and what was done: a name, and what is said of it."""
@@ -94,6 +119,7 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
 def _of_list(value: tuple[Any, ...], name: str) -> Changed:
     if not 1 < len(value) <= _MOST:
         return
+    name = _ENTRIES.get(name, name)
     yield "reversed", value[::-1], name
     for place in range(len(value)):
         yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{_ordinal(place)} of the {name}"

@@ -165,7 +165,7 @@ class Outcomes:
         right = {label: value for label, value in self.search.solution.answers.items() if label < self.part.label}
         if self.search.carried or all(candidate.answers.get(label) == value for label, value in right.items()):
             return
-        alone = self.cells_of(candidate.again(right))
+        alone = self.cells_of(self.search.alone(candidate))
         if alone is not None and alone != cells:
             cause = replace(candidate.cause, weight=candidate.cause.weight * weights.HERE_ALONE)
             self._keep(cause, alone, again=candidate.again)
@@ -180,7 +180,8 @@ class Outcomes:
         return frozenset(
             name
             for name, size, right in zip(self.names, sizes, self.sizes, strict=True)
-            if (
+            if size != right
+            and (
                 not _alike(size, right)
                 if not isnan(size - right)
                 else cells is None or not equal(cells[name], self.key[name])

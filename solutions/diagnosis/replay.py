@@ -1,9 +1,11 @@
 """The working of a problem taken down, and gone through again with something changed in it."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, TypeAlias
 
+from flint import fmpq
 from msgspec import Struct, field
 from sympy import Expr
 
@@ -135,6 +137,8 @@ class Change(Struct, frozen=True):
         letters: what the exchanged right sides need besides; or what gives that for what is known.
         habit: what is done with what is known before every application.
         equated: for the numbers of equations with one unknown, other values of it.
+        sweeps: how often equations are applied, from 0 on, instead of solved; 0 where they are solved.
+        in_place: whether each of them then uses the values that those before have given already.
     """
 
     rights: Mapping[Expr, Expr] = field(default_factory=dict)
@@ -142,6 +146,8 @@ class Change(Struct, frozen=True):
     letters: Mapping[str, Any] | Callable[[Mapping[str, Any]], Mapping[str, Any]] = field(default_factory=dict)
     habit: Habit | None = None
     equated: Mapping[int, Any] = field(default_factory=dict)
+    sweeps: int = 0
+    in_place: bool = False
 
 
 #: An application in a changed working: its number, the right side, what was known, and its value.
@@ -221,7 +227,10 @@ class Replay(Work):
         if 0 < self.number + len(cases) <= len(self.before):
             self.number += len(cases)
             return dict(self.before[self.number - 1].known[unknown.code])
-        solution = super().system(formula, unknown, cases, **named, **self._letters(named))
+        if self.change.sweeps and "instead" not in named:
+            solution = self._applied(formula, unknown, cases, named)
+        else:
+            solution = super().system(formula, unknown, cases, **named, **self._letters(named))
         for case in cases:
             if self.number in self.change.values:
                 solution[_key(case)] = self.change.values[self.number]
@@ -234,6 +243,18 @@ class Replay(Work):
         """The unknown, as somebody gets it who errs in solving the equation."""
         number, self.solved = self.solved, self.solved + 1
         return self.change.equated[number] if number in self.change.equated else super().equate(letter, left, right)
+
+    def _applied(
+        self, formula: Formula, unknown: type[Quantity], cases: Sequence[Mapping[str, Any]], named: Mapping[str, Any]
+    ) -> dict[Any, Any]:
+        """What the unknowns are where the equations are applied a few times, not solved."""
+        right, fixed = self.reading(formula), dict(named.get(unknown.code, {}))
+        values: dict[Any, Any] = defaultdict(fmpq, {_key(case): fmpq(0) for case in cases} | fixed)
+        for _ in range(self.change.sweeps):
+            before = values if self.change.in_place else values.copy()
+            for case in cases:
+                values[_key(case)] = _bounded(tidy(value_of(right, {**named, unknown.code: before, **case})))
+        return {**fixed, **{_key(case): values[_key(case)] for case in cases}}
 
     def _letters(self, known: Mapping[str, Any]) -> Mapping[str, Any]:
         letters = self.change.letters
@@ -283,7 +304,8 @@ def _first(change: Change, right: Sequence[Application]) -> int:
     if change.habit is not None:
         return 0
     read = (each.number for each in right if each.right in change.rights) if change.rights else ()
-    return min((*change.values, *read), default=0)
+    swept = (each.number for each in right if each.equation) if change.sweeps else ()
+    return min((*change.values, *read, *swept), default=0)
 
 
 def with_givens(problem: Problem, given: Any, carried: Mapping[str, Any], steps: int) -> Mapping[str, Any] | None:

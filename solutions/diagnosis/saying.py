@@ -89,6 +89,9 @@ _INSIDE = {
     "inverse": "{part} = {was} is upside down",
     "complement": "{became}, 1 minus it, is put in for {part}, which is {was}",
     "crosswise": "the fractions of {part} are added top to top and bottom to bottom",
+    "inverse-signs": "the signs beside the diagonal are not turned in the inverse of {part}",
+    "inverse-diagonal": "the numbers on the diagonal are not exchanged in the inverse of {part}",
+    "inverse-undivided": "the inverse of {part} is not divided by the determinant",
     "": "{became} is put in for {part}, which is {was}",
 }
 #: What happened to the value that a step gives.
@@ -119,6 +122,7 @@ _WHOLE = {
     "number-moved": "a number has changed sides of the equation and kept its sign",
     "unknown-moved": "the unknown has changed sides of the equation and kept its sign",
     "multiplied": "it is multiplied by the number before the unknown instead of divided by it",
+    "unsolved": "the equations are gone through {what}, from 0 on, instead of solved",
     "another-quantity": "you gave {left}, which is not what is asked for",
     "another-quantity…": "you gave {left}, …, which are not what is asked for",
     "exchanged-cells": "the answers for {what} are exchanged",

@@ -3,6 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
+from itertools import product
 from typing import Any
 
 import sympy
@@ -16,8 +17,10 @@ from rldrill.solutions.diagnosis.alternatives import (
     can_be_made,
     hashable,
     is_sensible,
+    likely_share,
     numbers,
     of_numbers,
+    shares,
     single,
     terms,
 )
@@ -45,6 +48,9 @@ from rldrill.solutions.solution import Solution
 _NUMBERS, _CHECKS = 9, 2
 #: So many causes of the same value are told apart.
 _ALIKE = 4
+#: So often equations are applied by somebody who does not solve them.
+_SWEEPS = 3
+TIMES = ("once", "twice", "three times")
 
 
 class Search:
@@ -58,6 +64,7 @@ class Search:
         self._unfinished: Iterator[Candidate | None] | None = None
         self._alternatives: dict[int, list[Cause]] = {}
         self._responses: dict[int, list[tuple[list[Any] | None, Mapping[str, Any] | None]]] = {}
+        self._alone: dict[Candidate, Mapping[str, Any] | None] = {}
 
     @cached_property
     def work(self) -> Recorder:
@@ -102,6 +109,13 @@ class Search:
         yield from self._equations()
         yield from self._same_rows()
         yield from self._unknowns()
+        yield from self._unsolved()
+
+    def alone(self, candidate: Candidate) -> Mapping[str, Any] | None:
+        """The answers to each part of somebody who had the right ones to all parts before; for all parts at once."""
+        if candidate not in self._alone:
+            self._alone[candidate] = candidate.again(self.solution.answers)
+        return self._alone[candidate]
 
     def _mistaken(self, mistake: Misconception, settled: Mapping[str, Any]) -> Mapping[str, Any] | None:
         return self.solution.answers_with(mistake, {**self.carried, **settled})
@@ -246,6 +260,14 @@ class Search:
                 if other != equation.value:
                     yield from self._candidate(Cause(kind, weights.PROCEDURE[kind]), Change(equated={number: other}))
 
+    def _unsolved(self) -> Iterator[Candidate]:
+        """Systems of equations that are applied a few times, from 0 on, instead of solved."""
+        if not any(application.equation for application in self.applications):
+            return
+        for sweeps, in_place in product(range(1, _SWEEPS + 1), (False, True)):
+            cause = Cause("unsolved", weights.PROCEDURE["unsolved"], what=TIMES[sweeps - 1])
+            yield from self._candidate(cause, Change(sweeps=sweeps, in_place=in_place))
+
     def _in_equation(self, application: Application) -> Iterator[tuple[Cause, Expr, dict[str, Any]]]:
         letters = application.names
         case = {f"case_{name}": value for name, value in letters.items()}
@@ -278,6 +300,8 @@ class Search:
             return
         every = []
         for cause in at_one(application, self.problem.given):
+            if application.number in self._shares:
+                cause = self._in_a_share(cause)
             every.append(cause)
             yield
         found: dict[Any, list[Cause]] = defaultdict(list)
@@ -289,6 +313,19 @@ class Search:
         found.pop(hashable(application.value), None)
         apart = (cause for alike in found.values() for cause in alike)
         self._alternatives[application.number] = sorted(apart, key=lambda cause: -cause.weight)
+
+    @staticmethod
+    def _in_a_share(cause: Cause) -> Cause:
+        """A cause in one share of several: no slip makes it larger than 1, and a formula is misread for all of them."""
+        if cause.mistake is not None:
+            return replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
+        if cause.edit is not None or cause.kind not in weights.SLIPS:  # a point or a digit slips in any number
+            return cause
+        return replace(cause, weight=cause.weight * likely_share(cause.became))
+
+    @cached_property
+    def _shares(self) -> set[int]:
+        return shares(self.applications)
 
     # How answers depend on one value ----------------------------------------------------------------
     def responses(self, application: Application) -> list[tuple[list[Any] | None, Mapping[str, Any] | None]]:

@@ -65,6 +65,8 @@ ALIKE = (
     {"twin", "elsewhere", "another-line", "index"},
     {"other-taken", "min-for-max", "elsewhere", "another-line", "choice"},
 )
+#: Slips of arithmetic that are told in the same words.
+SLIPS = frozenset(("numerator", "denominator", "one-off", "doubled", "halved"))
 #: How much less likely it is that somebody takes 1 − x for x where x is no share of 1.
 NO_SHARE = 0.05
 #: How much less likely an edit is at one application alone, and in one term of a sum alone.
@@ -91,9 +93,10 @@ VALUES = {
 #: Slips in a value that is put in, or found on the way.
 INSIDE = {
     "crosswise": 1.5, "complement": 1.0, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5,
-    "another-line": 2.0, "stale": 2.5,
+    "another-line": 1.4, "stale": 2.5,
     "digits": 0.6, "one-off": 0.5, "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4,
     "lost-term": 1.0, "term-sign": 1.0, "term-tenfold": 0.5,
+    "inverse-signs": 3.0, "inverse-diagonal": 2.5, "inverse-undivided": 2.5,
 }  # fmt: skip
 
 #: What is done with the whole procedure.
@@ -113,6 +116,7 @@ PROCEDURE = {
     "number-moved": 5.0,
     "unknown-moved": 4.0,
     "multiplied": 2.0,
+    "unsolved": 3.0,
 }
 #: How much less likely it is that somebody errs here alone who did the same rightly in a part before.
 HERE_ALONE = 0.5

@@ -3,16 +3,17 @@
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
+from math import isclose
 from typing import Any
 
 from rldrill.problems.parts import Matrix, Number, Numbers, Part
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
-from rldrill.solutions.diagnosis.alternatives import plain
+from rldrill.solutions.diagnosis.alternatives import likely_share, plain
 from rldrill.solutions.diagnosis.arithmetic import slips
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import Application
-from rldrill.solutions.diagnosis.typed import Typed
+from rldrill.solutions.diagnosis.typed import Typed, approximate
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.formula.edits import Probe
 from rldrill.solutions.formula.formula import Formula
@@ -34,9 +35,12 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
         yield _cause("all-signs"), {name: -value for name, value in key.items()}
         if isinstance(part.kind, Numbers) and len(key) > 3:  # the opposite order of three is an exchange of two
             yield _cause("answer-reversed"), dict(zip(key, reversed(list(key.values())), strict=True))
+    of_shares = len(key) > 1 and all(0 <= approximate(value) <= 1 for value in key.values())
+    of_shares = of_shares and isclose(sum(map(approximate, key.values())), 1.0)
     for name, value in key.items():
         for slip, other in slips(value):
-            yield _cause(slip, name if len(key) > 1 else ""), {**key, name: other}
+            likely = likely_share(other) if of_shares and slip in weights.SLIPS else 1.0
+            yield _cause(slip, name if len(key) > 1 else "", likely), {**key, name: other}
     if len(key) == 1:
         ((name, value),) = key.items()
         share = is_rational(value) and 0 < value < 1

@@ -9,6 +9,7 @@ from rldrill.problems.models import Dynamics
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import ZERO, Value, exact, largest
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
@@ -23,16 +24,14 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (
-    SMALLEST_Q,
-    replace(OPTIMAL_Q_BY_VALUE, when=lambda given: given.tied is None),
-    OPTIMAL_Q_BY_REWARD,
-    OPTIMAL_Q_MEAN_FOR_MAX,
-)
-
 
 def solve(given: Given, work: Work) -> None:
     """What is missing first, then the best action of every state."""
+    _solve(given, work, rank=0)
+
+
+def _solve(given: Given, work: Work, rank: int) -> None:
+    """A reward that is asked for makes its action as good as the one of the others with this rank, 0 for the best."""
     actions = given.actions | dict.fromkeys(given.terminal, (knowns.NO_ACTION,))
     Q = {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
     Q |= {(state, knowns.NO_ACTION): ZERO for state in given.terminal}
@@ -44,7 +43,7 @@ def solve(given: Given, work: Work) -> None:
             found = work.answer({(s, a): work.step(BELLMAN_OPTIMALITY_Q, s=s, a=a, **known) for s, a in asked})
     Q = Q | found
     if given.tied:
-        _tie(given, given.tied, work, known | {"Q": Q})
+        _tie(given, given.tied, work, known | {"Q": Q}, rank)
     others = [state for state in given.values if not given.tied or state != given.tied[0]]
     if others:
         best = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, actions=actions) for state in others}
@@ -52,16 +51,39 @@ def solve(given: Given, work: Work) -> None:
         work.answer(best)
 
 
-def _tie(given: Given, tied: tuple[str, str], work: Work, known: dict[str, Any]) -> None:
-    """The reward with which an action is worth as much as the best of the others."""
+def _tie(given: Given, tied: tuple[str, str], work: Work, known: dict[str, Any], rank: int) -> None:
+    """The reward with which an action is worth as much as the best of the others, or as one that is worse."""
     state, action = tied
     value = work.step(BELLMAN_OPTIMALITY_Q, s=state, a=action, **known)
     rivals = tuple(name for name in given.actions[state] if name != action)
-    best = largest([known["Q"][state, name] for name in rivals])
+    others = [known["Q"][state, name] for name in rivals]
+    best = largest(others)
+    for _ in range(rank):
+        others.remove(best)
+        best = largest(others)
     work.say(f"The best of the other actions in {state} is worth ${text_of(best)}$. Both are equal for:")
     equal = work.equate("x", value, best)
     work.say(f"What {action} is worth grows with $x$, so this is the smallest one.")
     work.answer(equal)
+
+
+@slip(
+    "held-against-the-second-best",
+    "To be optimal the action must be worth as much as the best of the others, not only as much as the second best.",
+    when=lambda given: given.tied and len(given.actions[given.tied[0]]) > 2,
+)
+def second_best(given: Given, work: Work) -> None:
+    """Equated with the second best of the other actions."""
+    _solve(given, work, rank=1)
+
+
+MISCONCEPTIONS = (
+    SMALLEST_Q,
+    replace(OPTIMAL_Q_BY_VALUE, when=lambda given: given.tied is None),
+    OPTIMAL_Q_BY_REWARD,
+    OPTIMAL_Q_MEAN_FOR_MAX,
+    second_best.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

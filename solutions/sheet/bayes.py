@@ -160,6 +160,10 @@ with evaluate(False):
     MEASURED_TWICE = Misconception(
         "measured-twice", "Every measurement counts once: those before are in the belief already."
     )
+    OTHER_MEASUREMENT = Misconception(
+        "other-measurement",
+        "What was measured counts, with its own likelihood; 1 minus it is the probability of measuring anything else.",
+    )
     BAYES = Formula(
         "bayes",
         p(h, z),
@@ -176,6 +180,7 @@ with evaluate(False):
             * likelihood(z, h)
             * p(h)
             / SumOver(likelihood(z, h1) * likelihood(z, h1) * p(h1), h1, Hypotheses),
+            OTHER_MEASUREMENT: (1 - likelihood(z, h)) * p(h) / SumOver((1 - likelihood(z, h1)) * p(h1), h1, Hypotheses),
         },
     )
 
@@ -244,6 +249,9 @@ with evaluate(False):
             * likelihood(z, s)
             * p_bar(s)
             / SumOver(likelihood(z, s1) * likelihood(z, s1) * p_bar(s1), s1, States),
+            OTHER_MEASUREMENT: (1 - likelihood(z, s))
+            * p_bar(s)
+            / SumOver((1 - likelihood(z, s1)) * p_bar(s1), s1, States),
         },
     )
     READING = Formula(
@@ -606,6 +614,10 @@ with evaluate(False):
     PRIORS_FORGOTTEN = Misconception(
         "priors-forgotten", "The priors count, too: the ratio of the evidences is multiplied by that of the priors."
     )
+    SHARE_FOR_ODDS = Misconception(
+        "share-for-odds",
+        "Odds divide the one posterior probability by the other; divided by the sum of both it is a probability.",
+    )
     POSTERIOR_ODDS = Formula(
         "posterior-odds",
         of_model(first_model) / of_model(second_model),
@@ -616,6 +628,9 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             PRIORS_FORGOTTEN: evidence(first_model) / evidence(second_model),
+            SHARE_FOR_ODDS: evidence(first_model)
+            * p(first_model)
+            / (evidence(first_model) * p(first_model) + evidence(second_model) * p(second_model)),
         },
     )
 
@@ -637,6 +652,17 @@ with evaluate(False):
         source="Murphy 2012, section 3.3.1",
         hint="Every head adds ln θ, every tail ln(1 − θ), with the θ of its coin.",
         place=Place.WORKING,
+        misread={
+            BINOMIAL: SumOver(
+                heads_of(coin) * log(theta_of(coin))
+                + tails_of(coin) * log(1 - theta_of(coin))
+                + log(
+                    factorial(heads_of(coin) + tails_of(coin)) / (factorial(heads_of(coin)) * factorial(tails_of(coin)))
+                ),
+                coin,
+                Coins,
+            ),
+        },
     )
     BIC_SIGN = Misconception(
         "sign", "The log-likelihood is multiplied by −2, so that a better fit makes the BIC smaller."

@@ -169,6 +169,9 @@ with evaluate(False):
     WIDTH_AND_CLAMP_FORGOTTEN = Misconception(
         "width-forgotten-and-negative", WIDTH_FORGOTTEN.says, WIDTH_FORGOTTEN.when
     )
+    WIDTH_DOUBLED = Misconception(
+        "width-doubled", "The feature falls from 1 to 0 within the distance b from its centre, not within 2b."
+    )
     PIECEWISE_LINEAR_RBF = Formula(
         "piecewise-linear-rbf",
         phi(i, s),
@@ -181,6 +184,7 @@ with evaluate(False):
             WIDTH_FORGOTTEN: Greatest(Zero, 1 - distance(i)),
             WIDTH_AND_CLAMP_FORGOTTEN: 1 - distance(i),
             TENT_SQUARED: Greatest(Zero, 1 - (distance(i) / width) ** 2),
+            WIDTH_DOUBLED: Greatest(Zero, 1 - distance(i) / (2 * width)),
         },
     )
     TENT_INSIDE = Formula(

@@ -111,6 +111,10 @@ with evaluate(False):
         "column-for-row",
         "Divide by the total of the history's row: that of the column would give Pr(history|next state).",
     )
+    ODDS_FOR_SHARE = Misconception(
+        "odds-for-share",
+        "A probability is the share of all cases, not the odds: divide by the total of the row, all its numbers added.",
+    )
     RELATIVE_FREQUENCY = Formula(
         "relative-frequency",
         Pr(S(t + 1), S(t - 1), S(t)),
@@ -126,6 +130,7 @@ with evaluate(False):
             ROWS_PUT_TOGETHER: SumOver(N(h, S(t), S(t + 1)), h, States)
             * Pow(SumOver(SumOver(N(h, S(t), s1), s1, States), h, States), -1),
             COLUMN_FOR_ROW: _SEEN * Pow(SumOver(SumOver(N(h, s, S(t + 1)), s, States), h, States), -1),
+            ODDS_FOR_SHARE: _SEEN * Pow(SumOver(N(S(t - 1), S(t), s1), s1, States) - _SEEN, -1),
         },
     )
 

@@ -97,6 +97,9 @@ with evaluate(False):
         "The price of the action is Ra²: the action is squared, as the state is.",
         when=lambda given: len(given.R[0]) == 1,
     )
+    WEIGHTS_SQUARED = Misconception(
+        "weights-squared", "The weights are not squared: the price is sᵀQs + aᵀRa, not the squares of Qs and Ra."
+    )
     LQR_REWARD = Formula(
         "lqr-reward",
         rt(t),
@@ -108,6 +111,7 @@ with evaluate(False):
             COST_FOR_REWARD: Transposed(St(t)) * Qt(t) * St(t) + Transposed(Ut(t)) * Rt(t) * Ut(t),
             REWARD_WITHOUT_R: -Transposed(St(t)) * Qt(t) * St(t),
             ACTION_NOT_SQUARED: -(Transposed(St(t)) * Qt(t) * St(t) + Rt(t) * Ut(t)),
+            WEIGHTS_SQUARED: -(Transposed(Qt(t) * St(t)) * Qt(t) * St(t) + Transposed(Rt(t) * Ut(t)) * Rt(t) * Ut(t)),
         },
     )
     LQR_TOTAL = Formula(

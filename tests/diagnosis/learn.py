@@ -88,7 +88,7 @@ def _case(measured: Measured, label: str, text: str):
     if typed is None:
         return None
     outcomes = measured.outcomes_of(typed)
-    found, _ = giving(outcomes, typed, Clock())
+    found, _ = giving(outcomes, typed, Clock(), {})
     if not found:
         return {}, [], []
     weighing = Weighing(outcomes, typed, found)

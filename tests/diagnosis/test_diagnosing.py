@@ -168,6 +168,56 @@ def test_another_line_of_a_table_is_named() -> None:
     assert said.startswith("It looks as if V^π(warm) = 2 is put in for V^π(cool) = 4 in Q^π(cool, slow)")
 
 
+def test_equations_that_are_applied_instead_of_solved_are_told() -> None:
+    # Right are μ(A) = 8 + 1/2·μ(A) = 16 and μ(B) = 2 + 1/8·16 = 4. From 0 on, each with what has been found already:
+    # μ(A) = 8, then 8 + 1/2·8 = 12 and μ(B) = 2 + 1/8·12 = 7/2.
+    said = rldrill.load("feature-expectations-policy/1/965959").diagnose("12, 7/2").sentence
+    assert said.startswith("It looks as if the equations are gone through twice, from 0 on, instead of solved")
+
+
+@pytest.mark.parametrize(
+    ("typed", "says"),
+    [
+        ("5/7, 1; 3/7, 1", "the signs beside the diagonal are not turned in the inverse of"),  # (4 1; 1 2)/7·S
+        ("1/7, -1/7; 3/7, 11/7", "the numbers on the diagonal are not exchanged in the inverse of"),  # (2 −1; −1 4)/7·S
+        ("3, 1; 1, 5", "is not divided by the determinant"),  # (4 −1; −1 2)·S
+    ],
+)
+def test_a_step_forgotten_in_inverting_a_matrix_is_told(typed: str, says: str) -> None:
+    # S = (1 1; 1 3), H = R + S = (2 1; 1 4), its inverse (4 −1; −1 2)/7, and L = H⁻¹S = (3 1; 1 5)/7.
+    identity = [[1, 0], [0, 1]]
+    system = {"A": identity, "B": identity, "R": identity, "P": [[-1, -1], [-1, -3]]}
+    said = rldrill.read({"family": "lqr-gain", "given": system}).diagnose(typed, part="a").sentence
+    assert says in said
+
+
+def test_no_slip_makes_a_share_larger_than_1() -> None:
+    # (2/3)/(1/3) is 8/5 to 4/5, as if 3/5 were 8/5; but it is 3/5·4/5 to 2/5·3/5, with 1 − p(z|h).
+    said = rldrill.load("bayes-rule/2/381857").diagnose("2/3, 1/3", "b").sentence
+    assert said.startswith("What was measured counts, with its own likelihood; 1 minus it")
+    assert "8/5" not in said
+
+
+def test_two_edits_that_give_the_same_are_both_told() -> None:
+    # b ← 18/7 + 1/4·(5 + 3/2 − 18/7) = 199/56; a ← 8 + 1/4·(9/7 + 1/2·18/7 − 8) has 9/7 twice: without one, 177/28.
+    given = {
+        "trajectory": {"states": ["a", "b", "c"], "rewards": ["9/7", 5]},
+        "values": {"a": 8, "b": "18/7", "c": 3},
+        "alpha": "1/4",
+        "gamma": "1/2",
+    }
+    said = rldrill.read({"family": "td-zero", "given": given}).diagnose("177/28, 199/56").sentence
+    update = "in the first update (t = 0)"
+    assert said == f"It looks as if rₜ₊₁ is missing {update}, or γV(sₜ₊₁) is missing {update}."
+
+
+def test_a_list_of_the_givens_is_called_what_is_in_it() -> None:
+    # R₁ = (3 + 5/2 + 11/4)/(1 − 1/8) = 66/7; the other way round (11 + 5/2 + 3/4)/(7/8) = 114/7.
+    given = {"first": [1], "repeated": [3, 5, 11], "gamma": "1/2"}
+    said = rldrill.read({"family": "return-infinite", "given": given}).diagnose("114/7", "a").sentence
+    assert said.startswith("It looks as if the repeated rewards are taken in the opposite order")
+
+
 def test_a_matrix_in_the_place_of_another_is_told() -> None:
     # Σ̄ = 3·2·3 + 4 = 22. With A = 3 for Q = 12 in the gain K = 22/(22 + 3) = 22/25.
     line = {"mean": 9, "covariance": 2, "A": 3, "C": 1, "process": 4, "sensor": 12, "steps": [{"u": 5, "z": 11}]}
