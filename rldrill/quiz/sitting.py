@@ -3,9 +3,8 @@
 import json
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import datetime, timedelta
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,9 @@ from msgspec import Struct, field
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.graded import Graded
+from rldrill.grading.answers_file import Entry
+from rldrill.grading.marking import Judging, Rules
+from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.parts import Part
 from rldrill.writing import write_bytes_atomically
@@ -161,18 +162,29 @@ class Sitting(Struct):
         found = {place: data[self._name(place.problem)].get(self.part(place).label) for place in self.places}
         self.answers = {place: str(typed) for place, typed in found.items() if typed is not None}
 
-    def graded(self) -> tuple[Graded, ...]:
-        """The judgement of every problem, with follow-through and the exam's points."""
+    def pointed(self, place: Place, text: str) -> str:
+        """What was typed as it is read: with points for decimal commas, where the exam has these."""
+        return self._judging(place.problem).pointed(self.part(place), text)
+
+    def graded(self) -> tuple[tuple[MarkedPart, ...], ...]:
+        """The judgement of every part, problem by problem, as ``rldrill verify`` gives it."""
+        return tuple(self._graded(number) for number in range(len(self.version.exercises)))
+
+    def _graded(self, number: int) -> tuple[MarkedPart, ...]:
+        judging, name = self._judging(number), self._name(number)
+        entries = {
+            part.label: Entry("", name, part.label, text, None, self.path)
+            for index, part in enumerate(judging.exercise.parts)
+            if (text := self.answers.get(Place(number, index))) is not None
+        }
         return tuple(
-            exercise.grade(
-                {
-                    part.label: self.answers[place]
-                    for index, part in enumerate(exercise.parts)
-                    if (place := Place(number, index)) in self.answers
-                }
-            )
-            for number, exercise in enumerate(self.version.exercises)
+            MarkedPart(name, label, "" if entry is None else entry.text, judged)
+            for label, entry, judged in judging.marks(entries)
         )
+
+    def _judging(self, number: int) -> Judging:
+        rules = self.version.partial[number] if self.version.partial else {}
+        return Judging(self.version.exercises[number], Rules().of(self.exam), rules)
 
 
 def version_of(exam: Exam, code: str | None) -> Version:
@@ -191,14 +203,12 @@ def version_of(exam: Exam, code: str | None) -> Version:
     )
 
 
-def by_topic(sitting: Sitting, graded: tuple[Graded, ...]) -> dict[str, tuple[Fraction, int]]:
+def by_topic(sitting: Sitting, graded: Sequence[Sequence[MarkedPart]]) -> dict[str, Score]:
     """Points reached, and to be had, topic by topic."""
-    found: dict[str, tuple[Fraction, int]] = {}
-    for exercise, result in zip(sitting.version.exercises, graded, strict=True):
-        topic = exercise.problem.family.topic.replace("_", "-")
-        points, of = found.get(topic, (Fraction(0), 0))
-        found[topic] = points + result.points, of + result.of
-    return found
+    found: dict[str, list[Score]] = {}
+    for exercise, parts in zip(sitting.version.exercises, graded, strict=True):
+        found.setdefault(exercise.problem.family.topic.replace("_", "-"), []).extend(part.score for part in parts)
+    return {topic: total(scores) for topic, scores in found.items()}
 
 
 def _quoted(text: str) -> str:

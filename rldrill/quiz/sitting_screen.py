@@ -4,7 +4,6 @@ import re
 import shlex
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
-from fractions import Fraction
 from functools import partial
 
 from rich.console import Console, RenderableType
@@ -13,10 +12,10 @@ from rich.table import Table
 
 from rldrill.entries import by_name
 from rldrill.exercise import Exercise
-from rldrill.graded import GradedPart
+from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.document import counted
 from rldrill.problems.errors import reason
-from rldrill.problems.parts import Kind, Part
+from rldrill.problems.parts import Part
 from rldrill.quiz.display import Display
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.shapes import how_to_type
@@ -210,7 +209,7 @@ class SittingScreen:
 
     def _is_read(self, sitting: Sitting, place: Place, text: str) -> bool:
         """Whether an answer can be read, which is said if not; what it is worth is not."""
-        solution, part = sitting.exercise(place).solution, sitting.part(place)
+        solution, part, text = sitting.exercise(place).solution, sitting.part(place), sitting.pointed(place, text)
         try:
             fault, says = "what is missing", what_is_missing(solution, part, read_answer(solution, part, text))
         except Unreadable as error:
@@ -258,18 +257,17 @@ class SittingScreen:
 
     def _report(self, sitting: Sitting) -> None:
         graded = sitting.graded()
-        reached, of = sum((each.points for each in graded), Fraction(0)), sum(each.of for each in graded)
+        topics = by_topic(sitting, graded)
         self._print()
-        self._print(words((f"{_number(reached)} of {of} points", "bold")))
+        self._print(words((f"{_told(total(topics.values()))} points", "bold")))
         table = Table.grid(padding=(0, 2))
-        for topic, (points, most) in by_topic(sitting, graded).items():
-            table.add_row(f"  {topic}", f"{_number(points)} of {most}")
+        for topic, score in topics.items():
+            table.add_row(f"  {topic}", _told(score))
         self._print(table)
-        for number, (exercise, result) in enumerate(zip(sitting.version.exercises, graded, strict=True), 1):
-            for part in result.parts:
-                own = next(each for each in exercise.parts if each.label == part.part)
-                self._graded(f"{number}{part.part}", part, own.kind)
-                if not part.accepted:
+        for number, (exercise, parts) in enumerate(zip(sitting.version.exercises, graded, strict=True), 1):
+            for own, part in zip(exercise.parts, parts, strict=True):
+                self._graded(f"{number}{part.part}", part)
+                if not part.judged.accepted:
                     self._display.indented(render(exercise.working(part.part)))
                     self._print(words(("  The answer:", "dim")))
                     self._display.indented(renderable(exercise.answer(own)))
@@ -282,12 +280,11 @@ class SittingScreen:
             again += ["--version", sitting.version.code] if len(sitting.exam.versions) > 1 else []
         self._print(words(f"Your answers are in {sitting.path}. To grade them again: {shlex.join(again)}"), whole=True)
 
-    def _graded(self, name: str, part: GradedPart, kind: Kind) -> None:
-        says = "not answered" if part.verdict is None else by_name(part.verdict.says, kind)
-        mark, style = ("✓", "green") if part.accepted else ("✗", "red")
-        typed = "" if part.verdict is None else f"{' '.join(part.typed.split())[:60]}  "
-        points = f"{_number(part.points)} of {part.of}"
-        self._print(words((f"{mark} {name}", f"bold {style}"), f"  {points}  ", (typed, "bold"), says))
+    def _graded(self, name: str, part: MarkedPart) -> None:
+        mark, style = ("✓", "green") if part.judged.accepted else ("✗", "red")
+        typed = f"{' '.join(part.typed.split())[:60]}  " if part.typed else ""
+        points = f"  {_told(part.score)}  "
+        self._print(words((f"{mark} {name}", f"bold {style}"), points, (typed, "bold"), part.judged.reason))
 
 
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:
@@ -304,5 +301,5 @@ def _clock(left: timedelta) -> str:
     return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h {minutes % 60} min"
 
 
-def _number(points: Fraction) -> str:
-    return f"{float(points):g}"
+def _told(score: Score) -> str:
+    return f"{float(score.points):g} of {score.of}"

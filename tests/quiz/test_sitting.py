@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 from rich.console import Console
@@ -14,6 +15,7 @@ from rldrill.exam.exam import Exam
 from rldrill.exam.manifest import manifest, read_manifest, written
 from rldrill.exam.planning import plan
 from rldrill.grading.assignment import Assignment
+from rldrill.grading.report import Score
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.quiz.prompt import Prompt
@@ -63,6 +65,10 @@ def sitting(tmp_path: Path) -> Sitting:
     return Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
 
 
+def points(sitting: Sitting) -> Fraction:
+    return sum((part.score.points for parts in sitting.graded() for part in parts), Fraction(0))
+
+
 def right(sitting: Sitting) -> list[str]:
     answers = (sitting.exercise(place).answers()[sitting.part(place).label] for place in sitting.places)
     return [str(next(iter(answer.values()))) if isinstance(answer, dict) else str(answer) for answer in answers]
@@ -85,8 +91,8 @@ def test_right_answers_earn_everything(sitting: Sitting) -> None:
     assert "3 of 3 points" in text
     assert [prompt.split(" >")[0] for prompt in hand.prompts[:3]] == ["1a", "1b", "2a"]
     assert by_topic(sitting, sitting.graded()) == {
-        "fundamentals": (Fraction(2), 2),
-        "temporal-difference": (Fraction(1), 1),
+        "fundamentals": Score(Fraction(2), 2),
+        "temporal-difference": Score(Fraction(1), 1),
     }
 
 
@@ -130,7 +136,7 @@ def test_what_is_missing_is_said_and_asked_again_and_counts_as_wrong(tmp_path: P
     assert "medium is missing; give it too." in text
     assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b", "1b"]
     (graded,) = sitting.graded()
-    assert [part.points for part in graded.parts] == [2, Fraction(1, 2)]
+    assert [part.score.points for part in graded] == [2, Fraction(1, 2)]
 
 
 def test_ctrl_c_asks(sitting: Sitting) -> None:
@@ -193,7 +199,7 @@ def test_whatever_is_typed_is_kept_and_counts_as_verify_counts_it(sitting: Sitti
     again.resume()
     assert again.answers == sitting.answers
     assert again.handed_in is None
-    assert verify([sitting.path]).score.points == sum((graded.points for graded in again.graded()), Fraction(0))
+    assert verify([sitting.path]).score.points == points(again)
 
 
 def test_a_disk_that_takes_nothing_is_told_once_and_the_exam_goes_on(tmp_path: Path) -> None:
@@ -218,11 +224,10 @@ def test_a_disk_that_takes_nothing_is_told_once_and_the_exam_goes_on(tmp_path: P
 def test_verify_gives_the_same_points(sitting: Sitting, typed: tuple[str, ...]) -> None:
     own = right(sitting)
     sit(sitting, *(own[index] if text == "right" else text for index, text in enumerate(typed)), "hand in", "yes")
-    points = sum((graded.points for graded in sitting.graded()), Fraction(0))
     if typed:
-        assert verify([sitting.path]).score.points == points
+        assert verify([sitting.path]).score.points == points(sitting)
     else:
-        assert points == 0
+        assert points(sitting) == 0
 
 
 def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path) -> None:
@@ -236,6 +241,36 @@ def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path
     assert f"rldrill verify {tmp_path / 'answers.toml'} --for {tmp_path / 'exam.json'}\n" in text
     settings = Settings(assignment=Assignment(tmp_path / "exam.json"))
     assert verify([sitting.path], settings).score.points == 9
+
+
+#: td-zero/2/18: (a) is −6, 16/5, −3 and of 3 points, (b) medium: 111/25, critical: 47/5 and of one.
+TABLE = ("-6, 0, -3", "medium: 4.44, critical: 9.4")
+
+
+@pytest.mark.parametrize(
+    ("id_", "rules", "typed", "earned", "of"),
+    [
+        ("td-zero/2/18", {}, TABLE, 1, 4),  # a table that is half right earns all or nothing, unless the exam says so
+        ("td-zero/2/18", {"partial": "entries"}, TABLE, 3, 4),
+        ("td-zero/2/18", {"own": ("entries", "all")}, TABLE, 3, 4),
+        # the return is 2, then 9 + 1/3·2 = 29/3
+        ("return/1/430", {"decimal_mark": ","}, ("2,0", "9,67"), 2, 2),
+        # linearise-affine/1/6 (b) is [3/4 −1; 0 1]: the last row is 0 1 in every draw
+        ("linearise-affine/1/6", {"partial": "entries"}, ("", "7 7; 0 1"), 0, None),
+    ],
+)
+def test_the_points_in_the_terminal_are_those_that_verify_gives_by_the_manifest(
+    tmp_path: Path, id_: str, rules: dict[str, Any], typed: tuple[str, ...], earned: int, of: int | None
+) -> None:
+    entry = Entry(id=id_, partial=rules.pop("own", None))
+    planned = plan(Blueprint(problems=(entry,), seed=1).but(**rules))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START, tmp_path / "exam.json")
+    (tmp_path / "exam.json").write_bytes(written(manifest(planned)))
+    _, text, _ = sit(sitting, *typed, "hand in", "yes", width=400)
+    assert f"\n{earned} of {of or sitting.version.points} points\n" in text
+    assert "Kept, but" not in text
+    score = verify([sitting.path], Settings(assignment=Assignment(tmp_path / "exam.json"))).score
+    assert score == Score(Fraction(earned), sitting.version.points)
 
 
 def test_where_there_are_several_versions_the_command_names_the_one_that_was_sat(tmp_path: Path) -> None:
