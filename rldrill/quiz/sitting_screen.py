@@ -38,7 +38,9 @@ _HELP = (
     ("clear", "take the answer to this part back"),
     ("hand in", "end the exam, and see how it went"),
     ("leave", "go on another time: the same command takes it up; the clock does not stop"),
+    (":back", "to the part before, where 'back' is an answer; so for all of these"),
 )
+_COMMANDS = frozenset(("", "next", "back", "overview", "problem", "clear", "hand in", "leave", "?", "help"))
 #: The title of a problem with the lines around it, and the prompt.
 _BESIDES = 5
 #: The last seconds are told one by one.
@@ -137,32 +139,33 @@ class SittingScreen:
                 return False
             except KeyboardInterrupt:
                 self._print()
-                text = self._interrupted()
+                text = f":{self._interrupted()}"  # never an answer
             if self._is_over(sitting):
                 break
-            if text == "leave":
+            command = _command(sitting, place, text)
+            if command == "leave":
                 return False
-            if text == "hand in":
-                at = len(places)
-            elif text == "problem":
-                shown = None
-            elif text == "overview":
-                self._overview(sitting)
-            elif text in ("?", "help"):
-                self._display.keys(_HELP)
-            elif text == "clear":
-                sitting.answer(place, "")
-                self._keep(sitting)
-            elif text in ("", "next"):
-                at += 1
-            elif text == "back":
-                at = max(0, at - 1)
-            elif match := _GO.fullmatch(text):
-                at = self._found(places, match, at)
-            else:
+            if command is None:
                 sitting.answer(place, text)
                 self._keep(sitting)
                 at += self._is_read(sitting, place, text)
+            elif command == "hand in":
+                at = len(places)
+            elif command == "problem":
+                shown = None
+            elif command == "overview":
+                self._overview(sitting)
+            elif command in ("?", "help"):
+                self._display.keys(_HELP)
+            elif command == "clear":
+                sitting.answer(place, "")
+                self._keep(sitting)
+            elif command in ("", "next"):
+                at += 1
+            elif command == "back":
+                at = max(0, at - 1)
+            elif match := _GO.fullmatch(command):
+                at = self._found(places, match, at)
         if sitting.handed_in is not None:
             self._print(words(("Handed in. ", "bold"), "That was done in another terminal; what it wrote counts."))
         else:
@@ -209,13 +212,10 @@ class SittingScreen:
 
     def _is_read(self, sitting: Sitting, place: Place, text: str) -> bool:
         """Whether an answer can be read, which is said if not; what it is worth is not."""
-        solution, part, text = sitting.exercise(place).solution, sitting.part(place), sitting.pointed(place, text)
-        try:
-            fault, says = "what is missing", what_is_missing(solution, part, read_answer(solution, part, text))
-        except Unreadable as error:
-            fault, says = "it cannot be read and", error.message
+        fault, says = _says_why(sitting, place, text)
         if says:
-            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), by_name(says, part.kind))
+            says = by_name(says, sitting.part(place).kind)
+            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), says)
             self._display.signed(("?", "yellow"), kept)
         return not says
 
@@ -285,6 +285,24 @@ class SittingScreen:
         typed = f"{' '.join(part.typed.split())[:60]}  " if part.typed else ""
         points = f"  {_told(part.score)}  "
         self._print(words((f"{mark} {name}", f"bold {style}"), points, (typed, "bold"), part.judged.reason))
+
+
+def _command(sitting: Sitting, place: Place, text: str) -> str | None:
+    """The command that was meant; None for an answer: whatever can be read as one is one, and ``:back`` the command."""
+    typed = text.lower()
+    command = typed.removeprefix(":").strip()
+    if command not in _COMMANDS and not _GO.fullmatch(command):
+        return None
+    return command if command != typed or not typed or _says_why(sitting, place, text)[1] else None
+
+
+def _says_why(sitting: Sitting, place: Place, text: str) -> tuple[str, str]:
+    """Why an answer counts as wrong whatever is right: what about it does, and a sentence; nothing if it need not."""
+    solution, part, text = sitting.exercise(place).solution, sitting.part(place), sitting.pointed(place, text)
+    try:
+        return "what is missing", what_is_missing(solution, part, read_answer(solution, part, text))
+    except Unreadable as error:
+        return "it cannot be read and", error.message
 
 
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:

@@ -113,6 +113,15 @@ def test_back_and_change_and_go_to_a_part(sitting: Sitting) -> None:
     assert "3 of 3 points" in text
 
 
+def test_a_word_that_can_be_the_answer_is_the_answer_and_with_a_colon_it_is_the_command(tmp_path: Path) -> None:
+    # linear-value/1/1: Q(s, walk) = −3·3 + 2·3 = −3 and Q(s, back) = −3·3 + 3·3 = 0, so that 'back' is greedy
+    planned = plan(Blueprint(problems=(Entry(id="linear-value/1/1"), PROBLEMS[1]), seed=1))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
+    _, _, hand = sit(sitting, "-3, 0", "back", "Back", ":Back", "BACK", "GO 1A", "back", ":leave")
+    assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1b", "2a", "1b", "1a", "1a", "1a", "1a"]
+    assert sitting.answers == {Place(0, 0): "-3, 0", Place(0, 1): "back"}
+
+
 def test_who_does_not_hand_in_goes_on_at_the_first_part_without_an_answer_or_at_the_first_of_all(
     sitting: Sitting,
 ) -> None:
