@@ -1,7 +1,7 @@
 """Marks what one student answered to one problem; the same answer to the same part is judged once."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
@@ -155,9 +155,7 @@ class Desk:
     def _take(self, entry: Entry, taken: dict[str, Entry], problem: "Judging", name: str) -> str:
         """Take an answer in; a sentence if it cannot be."""
         labels = [part.label for part in problem.exercise.parts]
-        label = entry.part.strip(" ().").lower()
-        if not label and len(labels) == 1:
-            label = labels[0]
+        label = label_of(entry.part, labels)
         if label not in labels:
             fault = f"there is no part {entry.part[:20]!r}" if label else "the part is missing"
             return f"{fault}; {name} has {', '.join(labels)}."
@@ -169,6 +167,12 @@ class Desk:
             lines = "" if before.line is None else f" (first in line {before.line})"
             return f"{name} ({label}) is answered twice{whose}{lines}; the first answer counts, take out the other."
         return ""
+
+
+def label_of(part: str, labels: Sequence[str]) -> str:
+    """The label of a part as somebody wrote it; a part alone needs none."""
+    label = part.strip(" ().").lower()
+    return labels[0] if not label and len(labels) == 1 else label
 
 
 def refusal(entry: Entry, says: str, problem: str) -> Refusal:

@@ -2,21 +2,21 @@
 
 import json
 import re
-import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from datetime import datetime, timedelta
 from pathlib import Path
-from typing import Any
 
 from msgspec import Struct, field
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
+from rldrill.files import parse
 from rldrill.grading.answers_file import Entry
-from rldrill.grading.marking import Judging, Rules
+from rldrill.grading.marking import Judging, Rules, label_of
 from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.parts import Part
+from rldrill.typed import typed
 from rldrill.writing import write_bytes_atomically
 
 _BEGUN, _HANDED_IN = "# begun: ", "# handed in: "
@@ -124,7 +124,7 @@ class Sitting(Struct):
         except FileError:  # spoilt meanwhile; nobody's answers may be lost over that, so it is written anew
             return
         if self.handed_in is None:
-            self.answers = {place: typed for place, typed in (self.answers | mine).items() if typed is not None}
+            self.answers = {place: text for place, text in (self.answers | mine).items() if text is not None}
 
     def _name(self, problem: int) -> str:
         """What the file calls a problem: its ID, or its number where it has none."""
@@ -150,17 +150,26 @@ class Sitting(Struct):
 
     def _take_in(self, text: str) -> None:
         try:
-            data: Mapping[str, Any] = tomllib.loads(text)
-        except tomllib.TOMLDecodeError:
+            data = parse(text, self.path)
+        except FileError:
             raise self._no_sitting() from None
         moments = [_moment(found) for found in _MOMENT.findall(text)]
         names = [self._name(number) for number in range(len(self.version.exercises))]
-        if not moments or None in moments or list(data) != names:
+        if not moments or None in moments or not isinstance(data, dict) or data.keys() != {*names}:
             raise FileError(f"{self.path} holds answers to other problems; name another file with --answers.")
+        answers = {place: text for number, name in enumerate(names) for place, text in self._found(number, data[name])}
         self.begun = moments[0] or self.begun
         self.handed_in = moments[1] if _HANDED_IN in text and len(moments) > 1 else None
-        found = {place: data[self._name(place.problem)].get(self.part(place).label) for place in self.places}
-        self.answers = {place: str(typed) for place, typed in found.items() if typed is not None}
+        self.answers = answers
+
+    def _found(self, problem: int, answers: object) -> Iterator[tuple[Place, str]]:
+        """The answers to a problem that the file holds; somebody may have written them as ``verify`` reads them."""
+        labels = [part.label for part in self.version.exercises[problem].parts]
+        for part, answer in answers.items() if isinstance(answers, dict) else [("", answers)]:
+            try:
+                yield Place(problem, labels.index(label_of(part, labels))), typed(answer, part)
+            except (ValueError, UsageError):
+                raise self._no_sitting() from None
 
     def pointed(self, place: Place, text: str) -> str:
         """What was typed as it is read: with points for decimal commas, where the exam has these."""

@@ -299,6 +299,21 @@ def test_the_manifest_makes_the_same_exam(sitting: Sitting, tmp_path: Path) -> N
     assert again.answers == {Place(0, 0): "5"}
 
 
+def test_what_somebody_has_written_into_the_file_as_verify_reads_it_is_taken_in(sitting: Sitting) -> None:
+    sitting.save()
+    first, second = (f'"{exercise.id}"' for exercise in sitting.version.exercises)
+    begun = f"# begun: {START.isoformat()}\n"
+    # td-zero/1/62590 has one part, which needs no name
+    sitting.path.write_text(f'{begun}{second} = "21/4"\n[{first}]\n"(A)" = 5.50\nb = 29\n')
+    sitting.resume()
+    assert sitting.answers == {Place(0, 0): "5.50", Place(0, 1): "29", Place(1, 0): "21/4"}
+    assert points(sitting) == verify([sitting.path]).score.points == 1
+    for broken in (f'{first} = "2"', f'{first} = {{c = "2"}}', f"{first} = {{a = [[[2]]]}}"):
+        sitting.path.write_text(f'{begun}{broken}\n{second} = "21/4"\n')
+        with pytest.raises(FileError, match="name another"):
+            sitting.resume()
+
+
 def test_the_file_of_something_else_is_refused(sitting: Sitting) -> None:
     for text in ('["return/1/8@2"]\na = "3"\n', "no toml", f"# begun: {START.isoformat()}\n[x]\n"):
         sitting.path.write_text(text)
