@@ -127,8 +127,10 @@ class Sitting(Struct):
             self.answers = {place: text for place, text in (self.answers | mine).items() if text is not None}
 
     def _name(self, problem: int) -> str:
-        """What the file calls a problem: its ID, or its number where it has none."""
-        return self.version.exercises[problem].id or str(problem + 1)
+        """What the file calls a problem: its ID, or its number where it has none that is its own."""
+        name = self.version.exercises[problem].id
+        is_alone = [exercise.id for exercise in self.version.exercises].count(name) == 1
+        return name if name and is_alone else str(problem + 1)
 
     def resume(self) -> None:
         """Take in what the file holds already.

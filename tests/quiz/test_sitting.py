@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 from rich.console import Console
 
 from rldrill.exam.blueprint import Blueprint, Entry
@@ -364,6 +365,21 @@ def test_a_file_that_was_spoilt_meanwhile_costs_no_answer(sitting: Sitting) -> N
     again = Sitting(sitting.exam, sitting.version, sitting.path, START)
     again.resume()
     assert again.answers == {Place(0, 0): "1", Place(0, 1): "2"}
+
+
+def test_where_an_id_stands_twice_in_an_old_manifest_the_problems_are_called_by_their_numbers(
+    sitting: Sitting, tmp_path: Path
+) -> None:
+    ((first, *_), version) = sitting.version.exercises, sitting.version
+    twice = replace(version, exercises=(first, first), partial=())
+    planned = replace(sitting.exam, versions=(twice,))
+    path, saved = tmp_path / "twice.toml", tmp_path / "twice.json"
+    saved.write_bytes(written(manifest(planned)))
+    sit(Sitting(planned, twice, path, START), "2", "29/3", "2", "29/3", "leave")
+    again = Sitting(planned, twice, path, START)
+    again.resume()
+    assert list(again.answers.values()) == ["2", "29/3", "2", "29/3"]
+    assert verify([path], Settings(assignment=Assignment(saved))).score == Score(Fraction(4), 4)
 
 
 def test_a_problem_of_ones_own_is_called_by_its_number(tmp_path: Path) -> None:
