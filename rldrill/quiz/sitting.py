@@ -114,7 +114,7 @@ class Sitting(Struct):
 
     def _take_in_others(self) -> None:
         """Take in what another terminal wrote since this one last did; of one part the later answer stays."""
-        if self._kept is None or not self.path.exists():
+        if not self.path.exists():
             return
         mine = {place: self.answers.get(place) for place in self._changed}
         try:

@@ -343,6 +343,23 @@ def test_two_terminals_in_one_exam_keep_what_was_typed_in_either(tmp_path: Path)
     assert third.answers == {Place(0, 0): "4", Place(0, 1): "2"}  # of one part the later; what was cleared is gone
 
 
+def test_two_terminals_that_begin_an_exam_at_once_keep_what_was_typed_in_either(tmp_path: Path) -> None:
+    planned, path = exam(), tmp_path / "answers.toml"
+    first, second = (
+        Sitting(planned, version_of(planned, None), path, START + timedelta(seconds=second)) for second in (0, 1)
+    )  # the file is there for neither
+    first.save()
+    first.answer(Place(0, 0), "1")
+    first.save()
+    second.save()
+    second.answer(Place(0, 1), "2")
+    second.save()
+    third = Sitting(planned, version_of(planned, None), path, START + timedelta(hours=1))
+    third.resume()
+    assert third.answers == {Place(0, 0): "1", Place(0, 1): "2"}
+    assert third.begun == second.begun == START
+
+
 def test_what_is_handed_in_elsewhere_is_over_here(sitting: Sitting) -> None:
     sitting.save()
     other = Sitting(sitting.exam, sitting.version, sitting.path, START)
