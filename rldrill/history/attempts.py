@@ -55,8 +55,8 @@ class Attempt(Struct, frozen=True):
 
     @property
     def right(self) -> bool:
-        """Whether it ends the part well."""
-        return self.outcome in ("right", "follow-through")
+        """Whether it ends the part well; what was seen before, and typed off, earns nothing."""
+        return self.outcome in ("right", "follow-through") and self.credit > 0
 
     @property
     def first_time(self) -> bool:

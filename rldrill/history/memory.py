@@ -61,7 +61,7 @@ class Memory(Struct, frozen=True):
 
 
 def rated(sitting: Iterable[Attempt]) -> Rating | None:
-    """How one problem went: wrong or given up is Again, a hint or a second try Hard, right Good.
+    """How one problem went: wrong, given up or seen before is Again, a hint or a second try Hard, right Good.
 
     None where it was left in the middle and all was right so far.
     """

@@ -15,20 +15,24 @@ DAY = timedelta(days=1)
 
 
 def sitting(name: str, when: datetime, *outcomes: str, family: str = "td-zero", parts: int = 1) -> list[Attempt]:
-    """Attempts at the parts ``a``, ``b``, …: ``right``, ``wrong right`` for a second try, ``hint right``."""
+    """Attempts at the parts ``a``, ``b``, …: ``right``, ``wrong right`` for a second try, ``hint right``.
+
+    ``skipped right`` is what was typed off, and ``missed right`` what was the only other answer: they earn nothing.
+    """
     made: list[Attempt] = []
     for label, words in zip("abcdef", outcomes, strict=False):
-        tries = hints = 0
+        tries = hints = seen = 0
         for word in words.split():
             if word == "hint":
                 hints += 1
                 continue
+            outcome, credit = "wrong" if word == "missed" else word, word in ("right", "follow-through") and not seen
+            id_ = f"{name}{len(made)}"
             made.append(
-                Attempt(
-                    f"{name}{len(made)}", when, name, family, 1, 7, 1, label, parts, "", word, (), hints, tries, 9.0, 0
-                )
+                Attempt(id_, when, name, family, 1, 7, 1, label, parts, "", outcome, (), hints, tries, 9.0, credit)
             )
-            tries += 1
+            tries += word != "skipped"
+            seen += word in ("skipped", "missed")
     return made
 
 
@@ -43,11 +47,22 @@ def sitting(name: str, when: datetime, *outcomes: str, family: str = "td-zero", 
         (("right", "skipped"), 2, Rating.Again),
         (("right", "wrong skipped", "right"), 3, Rating.Again),
         (("right", "close"), 3, Rating.Again),
+        (("skipped right",), 1, Rating.Again),
+        (("right", "missed right"), 2, Rating.Again),
+        (("skipped right right",), 1, Rating.Again),
         (("right",), 2, None),  # left in the middle, all well so far
     ],
 )
 def test_how_a_problem_is_rated(outcomes: tuple[str, ...], parts: int, rating: Rating | None) -> None:
     assert rated(sitting("one", NOW, *outcomes, parts=parts)) is rating
+
+
+def test_what_was_typed_off_is_not_right_at_the_first_try_and_not_mastered() -> None:
+    attempts = sitting("one", NOW, "skipped right")
+    assert [attempt.first_time for attempt in attempts] == [False, False]
+    (memory,) = remembered(attempts).values()
+    assert not memory.mastered
+    assert memory.due == NOW + DAY / 2
 
 
 def test_a_problem_is_reviewed_when_its_last_part_is_answered() -> None:

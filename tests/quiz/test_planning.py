@@ -23,7 +23,9 @@ _numbers = count()
 def answered(skill: Skill, when: datetime, outcome: str = "right", mistake: str = "") -> Attempt:
     name = str(next(_numbers))
     mistakes = (mistake,) if mistake else ()
-    return Attempt(name, when, name, skill.family, skill.level, 7, 1, "a", 1, "", outcome, mistakes, 0, 0, 60.0, 0.0)
+    return Attempt(
+        name, when, name, skill.family, skill.level, 7, 1, "a", 1, "", outcome, mistakes, 0, 0, 60.0, outcome == "right"
+    )
 
 
 def studied(
