@@ -72,6 +72,13 @@ def test_a_problem_is_reviewed_when_its_last_part_is_answered() -> None:
     assert memory.last == NOW + timedelta(minutes=40)
 
 
+def test_a_clock_that_is_set_back_makes_no_wrong_answer_of_a_right_one() -> None:
+    wrong, right = sitting("one", NOW, "wrong right")
+    (memory,) = remembered([wrong, replace(right, time=NOW - timedelta(hours=1))]).values()
+    assert memory.ratings == (Rating.Hard,)
+    assert memory.last == NOW
+
+
 def test_what_went_well_comes_after_days_and_what_went_wrong_on_the_next_day() -> None:
     (well,) = remembered(sitting("one", NOW, "right")).values()
     (badly,) = remembered(sitting("one", NOW, "wrong")).values()
