@@ -3,7 +3,7 @@
 import gc
 from collections.abc import Iterator, Sequence
 from contextlib import closing
-from datetime import UTC, datetime
+from datetime import datetime
 from itertools import islice
 from pathlib import Path
 from shutil import get_terminal_size
@@ -218,8 +218,9 @@ def _expected(minutes: int | None) -> int:
 
 def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan | None":
     """What your history chooses of the families that are named; None where it is not known what they take."""
+    from rldrill.history.zone import LOCAL
     from rldrill.problems.catalogue import chosen
     from rldrill.quiz.planning import Plan, skills
 
     order = skills(chosen(names) if names else None)
-    return Plan(order, attempts, number, datetime.now(UTC), exam_date and exam_date.date()) if order else None
+    return Plan(order, attempts, number, datetime.now(LOCAL), exam_date and exam_date.date()) if order else None

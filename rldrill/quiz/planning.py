@@ -3,7 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from datetime import UTC, date, datetime, time
+from datetime import date, datetime, time
 from itertools import takewhile
 
 from rldrill.exam.expected import minutes
@@ -11,6 +11,7 @@ from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
 from rldrill.history.progress import DAY
 from rldrill.problems.catalogue import topics
+from rldrill.problems.document import counted
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.mistakes import called
 
@@ -47,7 +48,7 @@ class Plan:
         order: the skills, in the order in which they are learned.
         attempts: the history.
         number: about how many problems there will be today.
-        now: the time, with its zone.
+        now: the time, in the zone in which days are told.
         exam: the day of the exam, if there is one.
 
     Raises:
@@ -70,7 +71,7 @@ class Plan:
         self._before = remembered(attempts)
         self.memories: Mapping[Skill, Memory] = self._before
         self._attempts = attempts
-        self._exam = None if exam is None else datetime.combine(exam, time(), UTC)
+        self._exam = None if exam is None else datetime.combine(exam, time(), now.tzinfo)
         self._asked: list[Skill] = []
         self._new = 0
         self._number = number
@@ -168,7 +169,7 @@ class Plan:
     def says(self, *, kept: bool = True) -> str:
         """One line: how much is due and new, and why the first problem is asked; ``kept`` is what will be answered."""
         now = self._begin
-        ahead = "" if self._exam is None else f"; {(self._exam.date() - now.date()).days} days to the exam"
+        ahead = "" if self._exam is None else f"; {counted((self._exam.date() - now.date()).days, 'day')} to the exam"
         if not self._attempts:
             several = len({self._topic[skill.family] for skill in self._order}) > 1
             of_topics = " of the first topics" if several else ""
