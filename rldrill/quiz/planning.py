@@ -4,6 +4,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import date, datetime, time
+from fractions import Fraction
 from itertools import takewhile
 
 from rldrill.exam.expected import minutes
@@ -76,7 +77,7 @@ class Plan:
         self._new = 0
         self._number = number
         self._begin = now
-        self._share = self._new_today(now) / number
+        self._share = Fraction(self._new_today(now), number)
 
     def learn(self, attempts: Sequence[Attempt]) -> None:
         """Take into account what was answered since the plan was made."""

@@ -219,6 +219,15 @@ def test_the_command_goes_by_the_day_where_it_is_typed(name: str) -> None:
         assert command._plan([], [], 10, today + DAY) is not None
 
 
+def test_as_many_new_problems_are_asked_as_were_said() -> None:
+    # 15/22 · 22 is 15, and with floats less
+    log = [answered(skill, NOW - 90 * DAY) for skill in ORDER[:7]]
+    plan = Plan(ORDER, log, 22, NOW)
+    assert plan.says().startswith("7 due, 15 new;")
+    asked = [plan.next(NOW) for _ in range(22)]
+    assert sum(skill not in ORDER[:7] for skill in asked) == 15
+
+
 def test_the_first_line_says_why_a_skill_is_asked_first() -> None:
     one, two = Skill("td-zero", 1), Skill("td-zero", 2)
     for order, log, why in (
