@@ -82,10 +82,10 @@ _MAY_BE_MISSING, _MAY_BE_BROKEN = ("level", "seed", "revision"), ("seconds", "cr
 _YEARS = range(1970, 2200)
 
 
-def to_line(attempt: Attempt) -> str:
-    """The attempt as a line of JSON, without its end."""
+def to_line(attempt: Attempt, *, ascii_only: bool = False) -> str:
+    """The attempt as a line of JSON, without its end; where it must be in ASCII, all other signs are escaped."""
     data = asdict(attempt) | {"time": attempt.time.astimezone(UTC).isoformat()}
-    return json.dumps(data, ensure_ascii=False)
+    return json.dumps(data, ensure_ascii=ascii_only)
 
 
 def from_lines(lines: Iterable[str], where: str) -> Iterator[Attempt]:
