@@ -45,7 +45,7 @@ def command(
     """Print problems as JSON Lines, or fill a folder with millions of them.
 
     The same arguments give the same problems, whatever the jobs, shards or machines; no problem comes twice. In a
-    folder a file appears when it is complete: the same command goes on where an earlier run was ended.
+    folder a file appears when it is complete: the same command goes on where an earlier run was ended, with its seed.
 
     Examples:
 
@@ -56,7 +56,7 @@ def command(
         rldrill generate -n 1000000 --with answers,working,latex -o problems/ --jobs 8
     """
     from rldrill.exam.selection import announced_seed
-    from rldrill.generation.folder import Folder
+    from rldrill.generation.folder import Folder, seed_of
     from rldrill.generation.lots import Split, lots
     from rldrill.generation.running import drawn, workers
     from rldrill.problems.errors import UsageError
@@ -65,6 +65,8 @@ def command(
     index, shards = _shares(shard)
     if output is None and form == "parquet":
         raise UsageError("Parquet is written to a folder; name one with --output.")
+    if seed is None and output is not None:
+        seed = seed_of(output)
     chosen = announced_seed(seed)
     every = lots(names or (), level, number, chosen, Split(split))[index - 1 :: shards]
     about = {"names": list(names or ()), "number": number, "level": level, "seed": chosen, "format": form}

@@ -17,6 +17,16 @@ _ABOUT = "generate.json"
 _ROWS = 2000
 
 
+def seed_of(path: Path) -> int | None:
+    """The seed of the run that has begun a folder; None where none has."""
+    try:
+        about = json.loads((path / _ABOUT).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    seed = about.get("seed") if isinstance(about, dict) else None
+    return seed if isinstance(seed, int) else None
+
+
 class Folder:
     """Where the lots of one run are written.
 

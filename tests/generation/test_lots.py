@@ -110,6 +110,23 @@ def test_a_folder_of_another_run_is_left_alone(tmp_path: Path, whole: Path) -> N
     assert "holds other files already" in str(generate(tmp_path).exception)
 
 
+def test_a_run_without_a_seed_goes_on_with_that_of_its_folder(tmp_path: Path) -> None:
+    def run(folder: str, *more: str) -> Any:
+        return CliRunner().invoke(app, ["generate", "return", "-n", "3", "-o", str(tmp_path / folder), *more])
+
+    begun = run("g")
+    written_then = contents(tmp_path / "g")
+    (tmp_path / "g" / "return-2.jsonl").unlink()
+    again = run("g")
+    assert (again.exit_code, again.stderr) == (0, begun.stderr)  # seed 153634, the same
+    assert contents(tmp_path / "g") == written_then
+    assert "was begun with other arguments" in str(run("g", "--seed", "1").exception)
+    assert "was begun with other arguments" in str(run("g", "--answers").exception)
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken" / "generate.json").write_text("[]")
+    assert "was begun with other arguments" in str(run("broken").exception)
+
+
 def test_shards_that_begin_a_folder_at_once_share_it(tmp_path: Path) -> None:
     shards = 8
     together = Barrier(shards)
