@@ -104,7 +104,7 @@ def command(
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
-        said = "" if plan is None else plan.says(kept=not keeper.trouble)
+        said = plan.says(kept=not keeper.trouble)
     if said:
         typer.echo(fill(said, get_terminal_size().columns - 1))  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
@@ -216,11 +216,11 @@ def _expected(minutes: int | None) -> int:
     return _NUMBER if minutes is None else max(1, minutes // _MINUTES_EACH)
 
 
-def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan | None":
-    """What your history chooses of the families that are named; None where it is not known what they take."""
+def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan":
+    """What your history chooses of the families that are named, or of all."""
     from rldrill.history.zone import LOCAL
     from rldrill.problems.catalogue import chosen
     from rldrill.quiz.planning import Plan, skills
 
     order = skills(chosen(names) if names else None)
-    return Plan(order, attempts, number, datetime.now(LOCAL), exam_date and exam_date.date()) if order else None
+    return Plan(order, attempts, number, datetime.now(LOCAL), exam_date and exam_date.date())

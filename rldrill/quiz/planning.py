@@ -11,7 +11,7 @@ from rldrill.exam.expected import minutes
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
 from rldrill.history.progress import DAY
-from rldrill.problems.catalogue import topics
+from rldrill.problems.catalogue import headers, topics
 from rldrill.problems.document import counted
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.mistakes import called
@@ -29,17 +29,26 @@ _LAST_DAYS = 7
 def skills(families: Iterable[str] | None = None) -> tuple[Skill, ...]:
     """The skills of these families, or of all, in the order in which they are learned.
 
-    Topic by topic as on the sheet, the quickest families first, the higher levels some topics later.
+    Topic by topic as on the sheet, the quickest families first, the higher levels some topics later. How long the
+    families of another package take is not known: they come last in their topic.
     """
     wanted = None if families is None else set(families)
     keyed = [
-        ((number + _TOPICS_A_LEVEL * (level - 1), number, times[0], family), Skill(family, level))
+        ((number + _TOPICS_A_LEVEL * (level - 1), number, _quickest(family), family), Skill(family, level))
         for number, names in enumerate(topics().values())
         for family in names
-        if (wanted is None or family in wanted) and (times := minutes().get(family))
-        for level in range(1, len(times) + 1)
+        if wanted is None or family in wanted
+        for level in _levels(family)
     ]
     return tuple(skill for _, skill in sorted(keyed))
+
+
+def _quickest(family: str) -> float:
+    return minutes()[family][0] if family in minutes() else math.inf
+
+
+def _levels(family: str) -> Iterable[int]:
+    return range(1, len(minutes()[family]) + 1) if family in minutes() else headers((family,))[0].levels
 
 
 class Plan:

@@ -216,7 +216,7 @@ def test_the_command_goes_by_the_day_where_it_is_typed(name: str) -> None:
         today = datetime.now(LOCAL).replace(tzinfo=None)
         with pytest.raises(UsageError, match="is not ahead"):
             command._plan([], [], 10, today)
-        assert command._plan([], [], 10, today + DAY) is not None
+        assert "1 day to the exam" in command._plan([], [], 10, today + DAY).says()
 
 
 def test_as_many_new_problems_are_asked_as_were_said() -> None:
