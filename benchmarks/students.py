@@ -114,9 +114,9 @@ def drilled(kind: Kind, seed: int, order: Sequence[Skill], budget: float, choose
             spent += took(skill, right=right)
             now = START + day * DAY + timedelta(minutes=spent)
             name = f"{day}-{len(today)}"
-            outcome = "right" if right else "wrong"
+            outcome, credit = ("right", 1.0) if right else ("wrong", 0.0)
             today.append(
-                Attempt(name, now, name, skill.family, skill.level, 0, 1, "a", 1, "", outcome, (), 0, 0, 60.0, 0.0)
+                Attempt(name, now, name, skill.family, skill.level, 0, 1, "a", 1, "", outcome, (), 0, 0, 60.0, credit)
             )
         log += today
     alike, mixed = dict.fromkeys(order, 1), {skill: MIXED.count(skill.level) for skill in order}

@@ -53,7 +53,7 @@ def read_text(path: str | Path, suffixes: Sequence[str], largest: int = LARGEST)
     Raises:
         FileError: it does not exist, cannot be read, ends otherwise, is too large or is not text.
     """
-    return _decoded(read_bytes(path, suffixes, largest), shown(path))
+    return decoded(read_bytes(path, suffixes, largest), shown(path))
 
 
 def read_bytes(path: str | Path, suffixes: Sequence[str], largest: int = LARGEST) -> bytes:
@@ -86,7 +86,12 @@ def read_bytes(path: str | Path, suffixes: Sequence[str], largest: int = LARGEST
     return content
 
 
-def _decoded(content: bytes, where: str) -> str:
+def decoded(content: bytes, where: str) -> str:
+    """What bytes say that are UTF-8, or begin with the mark of UTF-16; ``where`` is what complaints call their place.
+
+    Raises:
+        FileError: they are no text.
+    """
     if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):  # what spreadsheets call Unicode text
         try:
             return _without_nulls(content.decode("utf-16"), where)

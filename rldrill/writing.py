@@ -2,16 +2,20 @@
 
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 
 @contextmanager
-def whole(path: Path) -> Iterator[Path]:
+def whole(path: Path, put: Callable[[Path, Path], object] = Path.replace) -> Iterator[Path]:
     """Where to write a file that appears when it is complete, or not at all, in a folder that is made if need be.
 
     What stood there before stays until then.
+
+    Args:
+        path: where it shall be.
+        put: what puts the complete file there.
 
     Raises:
         OSError: the folder cannot be written to, or the disk is full; ``filename`` is set.
@@ -24,7 +28,7 @@ def whole(path: Path) -> Iterator[Path]:
         try:
             yield unfinished
             unfinished.chmod(_file_mode(path))
-            unfinished.replace(path)
+            put(unfinished, path)
         finally:
             unfinished.unlink(missing_ok=True)
     except OSError as error:
@@ -33,7 +37,36 @@ def whole(path: Path) -> Iterator[Path]:
 
 def write_bytes_atomically(path: Path, data: bytes) -> None:
     """Write a file whole or not at all, as ``whole`` does; it lies on the disk then."""
-    with whole(path) as unfinished, unfinished.open("wb") as file:
+    with whole(path) as unfinished:
+        _write(unfinished, data)
+
+
+def begin(path: Path, data: bytes) -> bool:
+    """Write a file whole, unless there is one: of several processes that begin one at once, one does.
+
+    Returns:
+        Whether this is in it now; else it is another's.
+
+    Raises:
+        OSError: it can be neither written nor read; ``filename`` is set.
+    """
+    with whole(path, _put_first) as unfinished:
+        _write(unfinished, data)
+    return path.read_bytes() == data
+
+
+def _put_first(unfinished: Path, path: Path) -> None:
+    try:
+        path.hardlink_to(unfinished)
+    except FileExistsError:
+        return
+    except OSError:  # some file systems have no links
+        if not path.exists():
+            unfinished.replace(path)
+
+
+def _write(path: Path, data: bytes) -> None:
+    with path.open("wb") as file:
         file.write(data)
         file.flush()
         os.fsync(file.fileno())

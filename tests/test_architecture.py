@@ -32,7 +32,7 @@ MAY_IMPORT = {
     "grading": {"problems", "solutions", "library", "exam"},
     "generation": {"problems", "solutions", "library", "render"},
     "history": {"problems"},
-    "quiz": {"problems", "solutions", "library", "render", "exam", "history"},
+    "quiz": {"problems", "solutions", "library", "render", "exam", "grading", "history"},
     "audit": {"problems", "solutions", "exam"},
     "commands": {
         "problems",

@@ -54,7 +54,7 @@ def command(
     """Print problems as JSON Lines, or fill a folder with millions of them.
 
     The same arguments give the same problems, whatever the jobs, shards or machines; no problem comes twice. In a
-    folder a file appears when it is complete: the same command goes on where an earlier run was ended.
+    folder a file appears when it is complete: the same command goes on where an earlier run was ended, with its seed.
 
     Examples:
 
@@ -65,7 +65,7 @@ def command(
         rldrill generate -n 1000000 --with answers,working,latex -o problems/ --jobs 8
     """
     from rldrill.exam.selection import announced_seed
-    from rldrill.generation.folder import Folder
+    from rldrill.generation.folder import Folder, seed_of
     from rldrill.generation.lots import Split, lots
     from rldrill.generation.running import drawn, workers
     from rldrill.problems.errors import UsageError
@@ -78,6 +78,8 @@ def command(
         raise UsageError(
             f"{output}: -o names a folder, which gets a file for each family and level; {_FILES[output.suffix]}."
         )
+    if seed is None and output is not None:
+        seed = seed_of(output)
     chosen = announced_seed(seed)
     every = lots(names or (), level, number, chosen, Split(split))[index - 1 :: shards]
     about = {"names": list(names or ()), "number": number, "level": level, "seed": chosen, "format": form}

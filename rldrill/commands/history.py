@@ -41,9 +41,11 @@ def command(
 def _export(path: Path, target: Path | None) -> None:
     from rldrill.history.attempts import to_line
     from rldrill.history.log import read
+    from rldrill.render.encodable import shows_all
     from rldrill.writing import write_bytes_atomically
 
-    lines = "".join(f"{to_line(attempt)}\n" for attempt in read(path))
+    ascii_only = target is None and not shows_all(sys.stdout.encoding)
+    lines = "".join(f"{to_line(attempt, ascii_only=ascii_only)}\n" for attempt in read(path))
     if target is None:
         typer.echo(lines, nl=False)
     else:
@@ -51,15 +53,13 @@ def _export(path: Path, target: Path | None) -> None:
 
 
 def _import(path: Path, source: Path | None) -> None:
+    from rldrill.files import decoded, shown
     from rldrill.history.attempts import from_lines
     from rldrill.history.log import append
-    from rldrill.problems.errors import FileError
 
-    try:
-        text = sys.stdin.read() if source is None else source.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        raise FileError(f"{source or 'stdin'} is not in UTF-8.") from None
-    attempts = list(from_lines(text.split("\n"), str(source or "stdin")))
+    where = "stdin" if source is None else shown(source)
+    content = sys.stdin.buffer.read() if source is None else source.read_bytes()
+    attempts = list(from_lines(decoded(content, where).split("\n"), where))
     new = append(path, attempts)
     typer.echo(f"{new} of {len(attempts)} answers were new.", err=True)
 

@@ -3,7 +3,7 @@
 import gc
 from collections.abc import Iterator, Sequence
 from contextlib import closing
-from datetime import UTC, datetime
+from datetime import datetime
 from itertools import islice
 from pathlib import Path
 from shutil import get_terminal_size
@@ -17,6 +17,7 @@ from rldrill.commands.arguments import Level, NotationOption, Seed, complete
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+    from rldrill.exam.exam import Exam
     from rldrill.exercise import Exercise
     from rldrill.history.attempts import Attempt
     from rldrill.quiz.planning import Plan
@@ -103,7 +104,7 @@ def command(
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
-        said = "" if plan is None else plan.says(kept=not keeper.trouble)
+        said = plan.says(kept=not keeper.trouble)
     if said:
         typer.echo(fill(said, get_terminal_size().columns - 1))  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
@@ -155,9 +156,7 @@ def command(
 
 def _sit(source: Path, version: str | None, answers: Path | None, seed: int | None, *, plain: bool) -> None:
     """Sit an exam, or go on with it."""
-    from rldrill.exam.blueprint import read_blueprint
-    from rldrill.exam.manifest import manifest, read_manifest, written
-    from rldrill.exam.planning import plan
+    from rldrill.exam.manifest import read_manifest
     from rldrill.problems.errors import UsageError
     from rldrill.problems.notations import LECTURE, in_use, use
     from rldrill.quiz.prompt import line_editor
@@ -165,7 +164,6 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     from rldrill.quiz.sitting import Sitting, version_of
     from rldrill.quiz.sitting_screen import SittingScreen
     from rldrill.render.terminal import console
-    from rldrill.writing import write_bytes_atomically
 
     path = answers or Path(f"{source.stem}-answers.toml")
     if path.suffix.lower() != ".toml":
@@ -173,11 +171,8 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     saved = path.with_suffix(".json")
     if source.suffix.lower() == ".json":
         saved, planned = source, read_manifest(source)
-    elif saved.exists():
-        planned = read_manifest(saved)
     else:
-        planned = plan(read_blueprint(source).but(seed=seed, versions=1))
-        write_bytes_atomically(saved, written(manifest(planned)))
+        planned = _begun(source, saved, seed)
     if in_use().notation == LECTURE:
         use(planned.layout.notation)
     sitting = Sitting(planned, version_of(planned, version), path, utc_now(), saved)
@@ -189,6 +184,19 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     _collect_again()
     if not screen.run(sitting):
         raise typer.Exit(130)
+
+
+def _begun(blueprint: Path, saved: Path, seed: int | None) -> "Exam":
+    """The exam of a blueprint, drawn when it is begun for the first time, in whichever terminal that is."""
+    from rldrill.exam.blueprint import read_blueprint
+    from rldrill.exam.manifest import manifest, read_manifest, written
+    from rldrill.exam.planning import plan
+    from rldrill.writing import begin
+
+    if saved.exists():
+        return read_manifest(saved)
+    planned = plan(read_blueprint(blueprint).but(seed=seed, versions=1))
+    return planned if begin(saved, written(manifest(planned))) else read_manifest(saved)
 
 
 def _map(attempts: Sequence["Attempt"]) -> "RenderableType":
@@ -208,10 +216,11 @@ def _expected(minutes: int | None) -> int:
     return _NUMBER if minutes is None else max(1, minutes // _MINUTES_EACH)
 
 
-def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan | None":
-    """What your history chooses of the families that are named; None where it is not known what they take."""
+def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan":
+    """What your history chooses of the families that are named, or of all."""
+    from rldrill.history.zone import LOCAL
     from rldrill.problems.catalogue import chosen
     from rldrill.quiz.planning import Plan, skills
 
     order = skills(chosen(names) if names else None)
-    return Plan(order, attempts, number, datetime.now(UTC), exam_date and exam_date.date()) if order else None
+    return Plan(order, attempts, number, datetime.now(LOCAL), exam_date and exam_date.date())

@@ -32,6 +32,7 @@ def command(
     from rldrill.history.log import read
     from rldrill.history.place import history_file, told
     from rldrill.history.progress import progress
+    from rldrill.history.zone import LOCAL
     from rldrill.problems.errors import UsageError
 
     if output is not None and output.suffix.lower() not in _ENDINGS:
@@ -39,7 +40,7 @@ def command(
     path = history_file()
     with told(path):
         attempts = read(path)
-    found = progress(attempts, _groups(names or []), datetime.now().astimezone())
+    found = progress(attempts, _groups(names or []), datetime.now(LOCAL))
     if json:
         print_json(found.to_json())
     elif output is not None:

@@ -165,16 +165,12 @@ def read_blueprint(path: str | Path) -> Blueprint:
     starts = [text.count("\n", 0, found.end()) + 1 for found in _EACH.finditer(text)]
     blueprint._lines = tuple(starts) if len(starts) == len(blueprint.problems) else ()
     left_out = _left_out(blueprint.exclude, f"{where}, line {_line(text, ['exclude'])}")
-    seen: set[str] = set()
     for index, entry in enumerate(blueprint.problems):
         flaw = _flaw(entry)
         if entry.family in left_out:
             flaw = f"{entry.family} is left out by exclude; take it out there, or here."
-        if entry.id in seen:
-            flaw = f"{entry.id} is there already; one of them is enough."
         if flaw:
             raise FileError(f"{blueprint.place(index)}{flaw}")
-        seen |= {entry.id} if entry.id else set()
     return blueprint
 
 

@@ -96,7 +96,7 @@ def _columns(
     Where it is steered, they take the minutes that are expected.
     """
     columns = [[] if place.fixed is None else [_same(place.fixed)] * count for place in places]
-    used = {column[0].content for column in columns if column}
+    used = _fixed(places, columns)
     tolerance = _TOLERANCE * sum(place.minutes for place in places)
     ahead = Fraction(0)  # by so many minutes the versions are longer than they should be, until here
     for index, place in enumerate(places):
@@ -116,6 +116,22 @@ def _columns(
         for _ in range(count * index // len(places), count * (index + 1) // len(places)):
             advance()
     return columns
+
+
+def _fixed(places: Sequence[Slot], columns: Sequence[Sequence[Candidate]]) -> set[str]:
+    """What is given in the fixed problems.
+
+    Raises:
+        UserError: two of them are the same, whatever they are called.
+    """
+    used: set[str] = set()
+    for place, column in zip(places, columns, strict=True):
+        if place.fixed is not None and column:
+            if column[0].content in used:
+                name = "this problem" if place.fixed.id is None else f"the problem {place.fixed.id}"
+                raise error(place.where, f"{name} is there already; one of them is enough.")
+            used.add(column[0].content)
+    return used
 
 
 def _same(exercise: Exercise) -> Candidate:

@@ -10,11 +10,21 @@ from typing import Any
 from rldrill import __version__
 from rldrill.generation.lots import Lot
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.writing import whole
+from rldrill.writing import begin, whole
 
 _ABOUT = "generate.json"
 #: Rows that Parquet keeps together.
 _ROWS = 2000
+
+
+def seed_of(path: Path) -> int | None:
+    """The seed of the run that has begun a folder; None where none has."""
+    try:
+        about = json.loads((path / _ABOUT).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    seed = about.get("seed") if isinstance(about, dict) else None
+    return seed if isinstance(seed, int) else None
 
 
 class Folder:
@@ -38,17 +48,16 @@ class Folder:
         path.mkdir(parents=True, exist_ok=True)
         own = path / _ABOUT
         told = json.dumps({"rldrill": __version__, **about}, indent=1) + "\n"
-        if own.exists():
-            try:
-                same = json.loads(own.read_text(encoding="utf-8")) == json.loads(told)
-            except ValueError:
-                raise FileError(f"{own} is not what rldrill wrote there; take another folder.") from None
-            if not same:
-                raise UsageError(f"{path} was begun with other arguments ({own} has them); take another folder.")
-        elif any(path.iterdir()):
+        if _holds_others(path) and not own.exists():  # another shard writes it before its lots
             raise UsageError(f"{path} holds other files already; take an empty folder, or a new one.")
-        else:
-            own.write_text(told, encoding="utf-8")
+        if begin(own, told.encode()):
+            return
+        try:
+            same = json.loads(own.read_text(encoding="utf-8")) == json.loads(told)
+        except ValueError:
+            raise FileError(f"{own} is not what rldrill wrote there; take another folder.") from None
+        if not same:
+            raise UsageError(f"{path} was begun with other arguments ({own} has them); take another folder.")
 
     def has(self, lot: Lot) -> bool:
         """Whether a lot was written already."""
@@ -68,6 +77,11 @@ class Folder:
 
     def _file(self, lot: Lot) -> Path:
         return self._path / f"{lot.name}.{self._ending}"
+
+
+def _holds_others(folder: Path) -> bool:
+    """Whether there are files that are not of rldrill's beginning; what is hidden, and may be unfinished, is none."""
+    return any(not path.name.startswith(".") and path.name != _ABOUT for path in folder.iterdir())
 
 
 def _jsonl(path: Path, lines: Iterable[str]) -> int:

@@ -46,10 +46,8 @@ class Assignment:
         self.manifest = manifest
         from rldrill.exam.manifest import printed, read_exam
 
-        exam = read_exam(manifest)[0]
-        self.title, self.partial, self.scale = exam.head.title, exam.partial, exam.scale
-        self.commas = exam.head.decimal_mark == ","
-        self._ids_printed = exam.layout.ids
+        self.exam = read_exam(manifest)[0]
+        self._ids_printed = self.exam.layout.ids
         self.versions = {each.code: each for each in printed(manifest)}
         self._all: Printed | None = None
         self._roster: dict[str, Sitting] = {}

@@ -1,7 +1,7 @@
 """Marks what one student answered to one problem; the same answer to the same part is judged once."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
@@ -23,6 +23,7 @@ from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 if TYPE_CHECKING:
     from rldrill.exam.choices import Partial
+    from rldrill.exam.exam import Exam
 
 #: A problem: its ID, the path of its file, or the code of a version of the exam and a number in it, from 0.
 Ref: TypeAlias = str | tuple[str, int]
@@ -64,6 +65,10 @@ class Rules(Struct, frozen=True):
     keys: bool = False
     commas: bool = False
 
+    def of(self, exam: "Exam") -> "Rules":
+        """The same with what an exam says itself."""
+        return replace(self, partial=exam.partial, commas=exam.head.decimal_mark == ",")
+
 
 class Task(Struct, frozen=True):
     """What one student answered to one problem.
@@ -97,11 +102,11 @@ class Desk:
 
     def __init__(self, manifest: Path | None, rules: Rules) -> None:
         self._manifest, self._rules = manifest, rules
-        self._problems: dict[Ref, _Problem] = {}
+        self._problems: dict[Ref, Judging] = {}
         self._version = ""
         self._searches = _Time(ALL_SEARCHES)
 
-    def problem(self, ref: Ref) -> "_Problem":
+    def problem(self, ref: Ref) -> "Judging":
         """A problem, solved.
 
         Raises:
@@ -115,7 +120,7 @@ class Desk:
             else:
                 code, number = ref
                 exercise, rules = self._makes[code][number]()
-            self._problems[ref] = _Problem(exercise, self._rules, rules, self._searches)
+            self._problems[ref] = Judging(exercise, self._rules, rules, self._searches)
         return self._problems[ref]
 
     def _make_room(self, ref: Ref) -> None:
@@ -147,12 +152,10 @@ class Desk:
                 refused.append(refusal(entry, says, task.name))
         return Marked(tuple(problem.marks(taken)), tuple(refused), problem.exercise.notes)
 
-    def _take(self, entry: Entry, taken: dict[str, Entry], problem: "_Problem", name: str) -> str:
+    def _take(self, entry: Entry, taken: dict[str, Entry], problem: "Judging", name: str) -> str:
         """Take an answer in; a sentence if it cannot be."""
         labels = [part.label for part in problem.exercise.parts]
-        label = entry.part.strip(" ().").lower()
-        if not label and len(labels) == 1:
-            label = labels[0]
+        label = label_of(entry.part, labels)
         if label not in labels:
             fault = f"there is no part {entry.part[:20]!r}" if label else "the part is missing"
             return f"{fault}; {name} has {', '.join(labels)}."
@@ -164,6 +167,12 @@ class Desk:
             lines = "" if before.line is None else f" (first in line {before.line})"
             return f"{name} ({label}) is answered twice{whose}{lines}; the first answer counts, take out the other."
         return ""
+
+
+def label_of(part: str, labels: Sequence[str]) -> str:
+    """The label of a part as somebody wrote it; a part alone needs none."""
+    label = part.strip(" ().").lower()
+    return labels[0] if not label and len(labels) == 1 else label
 
 
 def refusal(entry: Entry, says: str, problem: str) -> Refusal:
@@ -180,15 +189,24 @@ class _Time(Struct):
         self.left = max(0.0, self.left - seconds)
 
 
-class _Problem:
-    """A problem and the answers to it that were judged."""
+class Judging:
+    """A problem and the answers to it that were judged.
 
-    def __init__(self, exercise: Exercise, rules: Rules, partial: Mapping[str, str], searches: _Time) -> None:
+    Args:
+        exercise: the problem.
+        rules: how is marked.
+        partial: for parts with a rule of their own for wrong entries, that rule.
+        searches: the seconds that there are for all that is searched in a run.
+    """
+
+    def __init__(
+        self, exercise: Exercise, rules: Rules, partial: Mapping[str, str], searches: _Time | None = None
+    ) -> None:
         self.exercise, self._rules, self._partial = exercise, rules, partial
         self._verdicts: dict[_Typed, Verdict] = {}
         self._judged: dict[_Typed, Judged] = {}
         self._keys: dict[str, str] = {}
-        self._times = (_Time(SEARCH), searches)
+        self._times = (_Time(SEARCH), searches or _Time(ALL_SEARCHES))
         self._same: dict[str, frozenset[str]] = {}
 
     def marks(self, entries: Mapping[str, Entry]) -> list[tuple[str, Entry | None, Judged]]:
@@ -197,7 +215,7 @@ class _Problem:
         given: dict[str, tuple[str, Verdict]] = {}
         for part in self.exercise.parts:
             entry = entries.get(part.label)
-            text = "" if entry is None else self._text(part, entry)
+            text = "" if entry is None else self.pointed(part, entry.text, commas=entry.commas)
             if entry is None or not text.strip():
                 result.append((part.label, entry, self._missing(part)))
             elif entry.is_cell and _DATE.fullmatch(text.strip()):
@@ -316,18 +334,18 @@ class _Problem:
             self._judged[key] = Judged("", verdict, False, reason, Score(Fraction(0), part.points), self._key(part))
         return self._judged[key]
 
-    def _text(self, part: Part, entry: Entry) -> str:
+    def pointed(self, part: Part, text: str, *, commas: bool = False) -> str:
         """What was typed for a part, with points for decimal commas where only so it can be read.
 
         The exam has to be written with them, or the file has to allow it: its columns are parted by semicolons, and
         no answer in it has a decimal point.
         """
-        if not (entry.commas or self._rules.commas):
-            return entry.text
-        pointed = _COMMA.sub(r"\1.\2", entry.text)
-        if pointed == entry.text or self._readable(part, entry.text):
-            return entry.text
-        return pointed if self._readable(part, pointed) else entry.text
+        if not (commas or self._rules.commas):
+            return text
+        pointed = _COMMA.sub(r"\1.\2", text)
+        if pointed == text or self._readable(part, text):
+            return text
+        return pointed if self._readable(part, pointed) else text
 
     def _readable(self, part: Part, text: str) -> bool:
         try:

@@ -102,8 +102,8 @@ def verify(
     reports = [report for number in range(len(students)) if (report := graded[number]) is not None]
     if settings.strict and any(each.exit_code == FileError.exit_code for each in refused):
         reports = []
-    exam = settings.assignment
-    title, scale = ("", None) if exam is None else (exam.title, exam.scale)
+    exam = None if settings.assignment is None else settings.assignment.exam
+    title, scale = ("", None) if exam is None else (exam.head.title, exam.scale)
     return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed, scale)
 
 
@@ -146,7 +146,7 @@ class _Run:
         repeated = "" if self._settings.hand_ins in (None, "best") else self._settings.hand_ins
         rules = replace(self._settings.rules, repeated=repeated)
         exam = self._assignment
-        return rules if exam is None else replace(rules, partial=exam.partial, commas=exam.commas)
+        return rules if exam is None else rules.of(exam.exam)
 
     def students(self, handed: Sequence[HandedIn]) -> Iterator[_Student]:
         """Who answered, in the order of the files; then who is on the roster and did not."""

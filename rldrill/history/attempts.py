@@ -1,7 +1,6 @@
 """What is kept of an answer, and how it is written as a line of JSON."""
 
 import json
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from datetime import UTC, datetime
 from typing import Any
@@ -10,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import asdict, fields, replace
 
 from rldrill.problems.errors import FileError
+from rldrill.problems.identity import LEVELS
 
 #: How a part may end without an answer.
 SKIPPED, SHOWN = "skipped", "working shown"
@@ -55,8 +55,8 @@ class Attempt(Struct, frozen=True):
 
     @property
     def right(self) -> bool:
-        """Whether it ends the part well."""
-        return self.outcome in ("right", "follow-through")
+        """Whether it ends the part well; what was seen before, and typed off, earns nothing."""
+        return self.outcome in ("right", "follow-through") and self.credit > 0
 
     @property
     def first_time(self) -> bool:
@@ -64,14 +64,28 @@ class Attempt(Struct, frozen=True):
         return self.right and not self.hints and not self.retries
 
 
+_MOST = 10**15
 NAMES = tuple(field.name for field in fields(Attempt))
-_NUMBERS = {"level": int | None, "seed": int | None, "revision": int | None, "parts": int, "hints": int, "retries": int}
+#: From where to where numbers go. Those that may be missing are an ID's, of which a problem from outside has none.
+_NUMBERS = {
+    "level": (LEVELS[0], LEVELS[-1]),
+    "seed": (0, _MOST),
+    "revision": (0, _MOST),
+    "parts": (1, _MOST),
+    "hints": (0, _MOST),
+    "retries": (0, _MOST),
+    "seconds": (0, _MOST),
+    "credit": (0, 1),
+}
+_MAY_BE_MISSING, _MAY_BE_BROKEN = ("level", "seed", "revision"), ("seconds", "credit")
+#: Clocks may be wrong, but calendars end: what is due is worked out beyond the last answer.
+_YEARS = range(1970, 2200)
 
 
-def to_line(attempt: Attempt) -> str:
-    """The attempt as a line of JSON, without its end."""
+def to_line(attempt: Attempt, *, ascii_only: bool = False) -> str:
+    """The attempt as a line of JSON, without its end; where it must be in ASCII, all other signs are escaped."""
     data = asdict(attempt) | {"time": attempt.time.astimezone(UTC).isoformat()}
-    return json.dumps(data, ensure_ascii=False)
+    return json.dumps(data, ensure_ascii=ascii_only)
 
 
 def from_lines(lines: Iterable[str], where: str) -> Iterator[Attempt]:
@@ -84,7 +98,7 @@ def from_lines(lines: Iterable[str], where: str) -> Iterator[Attempt]:
         if line.strip():
             try:
                 yield _attempt(json.loads(line))
-            except (ValueError, TypeError, KeyError, RecursionError) as error:
+            except (ValueError, TypeError, KeyError, ArithmeticError, RecursionError) as error:
                 why = f"{error.args[0]!r} is missing" if isinstance(error, KeyError) else str(error).partition(":")[0]
                 raise FileError(f"{where}, line {number}: this is no attempt of a history: {why}.") from None
 
@@ -96,19 +110,27 @@ def _attempt(data: Mapping[str, Any]) -> Attempt:
         raise ValueError(f"there is no {min(unknown)[:20]!r}")
     kept = Attempt(**{name: data[name] for name in NAMES})
     for name in ("id", "time", "sitting", "family", "part", "typed", "outcome"):
-        if not isinstance(data[name], str):
+        if not _is_text(data[name]):
             raise TypeError(f"{name!r} is a text")
-    for name, kind in _NUMBERS.items():
-        if isinstance(data[name], bool) or not isinstance(data[name], kind) or abs(data[name] or 0) > 10**15:
-            raise TypeError(f"{name!r} is a whole number")
-    for name in ("seconds", "credit"):
-        if isinstance(data[name], bool) or not isinstance(data[name], int | float) or not math.isfinite(data[name]):
-            raise TypeError(f"{name!r} is a number")
+    for name, (least, most) in _NUMBERS.items():
+        value, kind = data[name], int | float if name in _MAY_BE_BROKEN else int
+        is_number = isinstance(value, kind) and not isinstance(value, bool) and least <= value <= most
+        if not is_number and not (value is None and name in _MAY_BE_MISSING):
+            whole = "" if name in _MAY_BE_BROKEN else "whole "
+            raise TypeError(f"{name!r} is a {whole}number from {least} to {most}")
     if data["outcome"] not in OUTCOMES:
         raise ValueError(f"there is no outcome {data['outcome'][:20]!r}")
-    if not isinstance(data["misconceptions"], list) or not all(isinstance(m, str) for m in data["misconceptions"]):
+    if not isinstance(data["misconceptions"], list) or not all(map(_is_text, data["misconceptions"])):
         raise TypeError("'misconceptions' is a list of texts")
     time = datetime.fromisoformat(data["time"])
     if time.tzinfo is None:
         raise ValueError("'time' has no time zone")
-    return replace(kept, time=time.astimezone(UTC), misconceptions=tuple(data["misconceptions"]))
+    time = time.astimezone(UTC)
+    if time.year not in _YEARS:
+        raise ValueError(f"'time' is in a year from {_YEARS[0]} to {_YEARS[-1]}")
+    return replace(kept, time=time, misconceptions=tuple(data["misconceptions"]))
+
+
+def _is_text(value: object) -> bool:
+    """Whether it is a text that a file can hold: half a pair of surrogates is none."""
+    return isinstance(value, str) and value.encode("utf-8", "ignore").decode() == value

@@ -61,13 +61,13 @@ class Memory(Struct, frozen=True):
 
 
 def rated(sitting: Iterable[Attempt]) -> Rating | None:
-    """How one problem went: wrong or given up is Again, a hint or a second try Hard, right Good.
+    """How one problem went: wrong, given up or seen before is Again, a hint or a second try Hard, right Good.
 
     None where it was left in the middle and all was right so far.
     """
     ends = {}
     helped = False
-    for attempt in sitting:
+    for attempt in sorted(sitting, key=lambda attempt: attempt.retries):  # a clock may have been set back meanwhile
         ends[attempt.part] = attempt
         helped = helped or bool(attempt.hints or attempt.retries)
     if not all(end.right for end in ends.values()):
@@ -90,7 +90,7 @@ def remembered(attempts: Iterable[Attempt], before: Mapping[Skill, Memory] | Non
 
 def _reviews(attempts: Iterable[Attempt]) -> Iterator[tuple[Skill, datetime, Rating]]:
     sittings: dict[tuple[str, Skill], list[Attempt]] = {}
-    for attempt in sorted(attempts, key=lambda attempt: (attempt.time, attempt.retries)):
+    for attempt in sorted(attempts, key=lambda attempt: attempt.time):
         if attempt.level is not None:
             sittings.setdefault((attempt.sitting, Skill(attempt.family, attempt.level)), []).append(attempt)
     for (_, skill), sitting in sittings.items():

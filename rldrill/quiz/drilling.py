@@ -90,7 +90,8 @@ def drill(text: str, attempts: Sequence[Attempt], names: Sequence[str] = (), lev
     if not known:
         others = [family for family, mistakes in listed.items() if name in mistakes][:4]
         at = "" if level is None else f" of level {level}"
-        raise UsageError(f"“{called(name)}” is no mistake of these problems{at}; drill it in {', '.join(others)}.")
+        cure = f"drill it in {', '.join(others)}" if others else "leave the level out"
+        raise UsageError(f"“{called(name)}” is no mistake of these problems{at}; {cure}.")
     made = Counter(Skill(each.family, each.level or 0) for each in attempts if name in each.misconceptions)
     most = sorted((skill for skill in known if skill in made), key=lambda skill: -made[skill])
     return Drill(name, tuple(most or known), sum(made[skill] for skill in known))

@@ -3,14 +3,16 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from datetime import UTC, date, datetime, time
+from datetime import date, datetime, time
+from fractions import Fraction
 from itertools import takewhile
 
 from rldrill.exam.expected import minutes
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
 from rldrill.history.progress import DAY
-from rldrill.problems.catalogue import topics
+from rldrill.problems.catalogue import headers, topics
+from rldrill.problems.document import counted
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.mistakes import called
 
@@ -27,17 +29,26 @@ _LAST_DAYS = 7
 def skills(families: Iterable[str] | None = None) -> tuple[Skill, ...]:
     """The skills of these families, or of all, in the order in which they are learned.
 
-    Topic by topic as on the sheet, the quickest families first, the higher levels some topics later.
+    Topic by topic as on the sheet, the quickest families first, the higher levels some topics later. How long the
+    families of another package take is not known: they come last in their topic.
     """
     wanted = None if families is None else set(families)
     keyed = [
-        ((number + _TOPICS_A_LEVEL * (level - 1), number, times[0], family), Skill(family, level))
+        ((number + _TOPICS_A_LEVEL * (level - 1), number, _quickest(family), family), Skill(family, level))
         for number, names in enumerate(topics().values())
         for family in names
-        if (wanted is None or family in wanted) and (times := minutes().get(family))
-        for level in range(1, len(times) + 1)
+        if wanted is None or family in wanted
+        for level in _levels(family)
     ]
     return tuple(skill for _, skill in sorted(keyed))
+
+
+def _quickest(family: str) -> float:
+    return minutes()[family][0] if family in minutes() else math.inf
+
+
+def _levels(family: str) -> Iterable[int]:
+    return range(1, len(minutes()[family]) + 1) if family in minutes() else headers((family,))[0].levels
 
 
 class Plan:
@@ -47,7 +58,7 @@ class Plan:
         order: the skills, in the order in which they are learned.
         attempts: the history.
         number: about how many problems there will be today.
-        now: the time, with its zone.
+        now: the time, in the zone in which days are told.
         exam: the day of the exam, if there is one.
 
     Raises:
@@ -70,12 +81,12 @@ class Plan:
         self._before = remembered(attempts)
         self.memories: Mapping[Skill, Memory] = self._before
         self._attempts = attempts
-        self._exam = None if exam is None else datetime.combine(exam, time(), UTC)
+        self._exam = None if exam is None else datetime.combine(exam, time(), now.tzinfo)
         self._asked: list[Skill] = []
         self._new = 0
         self._number = number
         self._begin = now
-        self._share = self._new_today(now) / number
+        self._share = Fraction(self._new_today(now), number)
 
     def learn(self, attempts: Sequence[Attempt]) -> None:
         """Take into account what was answered since the plan was made."""
@@ -168,7 +179,7 @@ class Plan:
     def says(self, *, kept: bool = True) -> str:
         """One line: how much is due and new, and why the first problem is asked; ``kept`` is what will be answered."""
         now = self._begin
-        ahead = "" if self._exam is None else f"; {(self._exam.date() - now.date()).days} days to the exam"
+        ahead = "" if self._exam is None else f"; {counted((self._exam.date() - now.date()).days, 'day')} to the exam"
         if not self._attempts:
             several = len({self._topic[skill.family] for skill in self._order}) > 1
             of_topics = " of the first topics" if several else ""

@@ -2,20 +2,21 @@
 
 import json
 import re
-import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Sequence
 from datetime import datetime, timedelta
-from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 from msgspec import Struct, field
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.graded import Graded
+from rldrill.files import parse
+from rldrill.grading.answers_file import Entry
+from rldrill.grading.marking import Judging, Rules, label_of
+from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.parts import Part
+from rldrill.typed import typed
 from rldrill.writing import write_bytes_atomically
 
 _BEGUN, _HANDED_IN = "# begun: ", "# handed in: "
@@ -113,7 +114,7 @@ class Sitting(Struct):
 
     def _take_in_others(self) -> None:
         """Take in what another terminal wrote since this one last did; of one part the later answer stays."""
-        if self._kept is None or not self.path.exists():
+        if not self.path.exists():
             return
         mine = {place: self.answers.get(place) for place in self._changed}
         try:
@@ -123,11 +124,13 @@ class Sitting(Struct):
         except FileError:  # spoilt meanwhile; nobody's answers may be lost over that, so it is written anew
             return
         if self.handed_in is None:
-            self.answers = {place: typed for place, typed in (self.answers | mine).items() if typed is not None}
+            self.answers = {place: text for place, text in (self.answers | mine).items() if text is not None}
 
     def _name(self, problem: int) -> str:
-        """What the file calls a problem: its ID, or its number where it has none."""
-        return self.version.exercises[problem].id or str(problem + 1)
+        """What the file calls a problem: its ID, or its number where it has none that is its own."""
+        name = self.version.exercises[problem].id
+        is_alone = [exercise.id for exercise in self.version.exercises].count(name) == 1
+        return name if name and is_alone else str(problem + 1)
 
     def resume(self) -> None:
         """Take in what the file holds already.
@@ -149,30 +152,50 @@ class Sitting(Struct):
 
     def _take_in(self, text: str) -> None:
         try:
-            data: Mapping[str, Any] = tomllib.loads(text)
-        except tomllib.TOMLDecodeError:
+            data = parse(text, self.path)
+        except FileError:
             raise self._no_sitting() from None
         moments = [_moment(found) for found in _MOMENT.findall(text)]
         names = [self._name(number) for number in range(len(self.version.exercises))]
-        if not moments or None in moments or list(data) != names:
+        if not moments or None in moments or not isinstance(data, dict) or data.keys() != {*names}:
             raise FileError(f"{self.path} holds answers to other problems; name another file with --answers.")
+        answers = {place: text for number, name in enumerate(names) for place, text in self._found(number, data[name])}
         self.begun = moments[0] or self.begun
         self.handed_in = moments[1] if _HANDED_IN in text and len(moments) > 1 else None
-        found = {place: data[self._name(place.problem)].get(self.part(place).label) for place in self.places}
-        self.answers = {place: str(typed) for place, typed in found.items() if typed is not None}
+        self.answers = answers
 
-    def graded(self) -> tuple[Graded, ...]:
-        """The judgement of every problem, with follow-through and the exam's points."""
+    def _found(self, problem: int, answers: object) -> Iterator[tuple[Place, str]]:
+        """The answers to a problem that the file holds; somebody may have written them as ``verify`` reads them."""
+        labels = [part.label for part in self.version.exercises[problem].parts]
+        for part, answer in answers.items() if isinstance(answers, dict) else [("", answers)]:
+            try:
+                yield Place(problem, labels.index(label_of(part, labels))), typed(answer, part)
+            except (ValueError, UsageError):
+                raise self._no_sitting() from None
+
+    def pointed(self, place: Place, text: str) -> str:
+        """What was typed as it is read: with points for decimal commas, where the exam has these."""
+        return self._judging(place.problem).pointed(self.part(place), text)
+
+    def graded(self) -> tuple[tuple[MarkedPart, ...], ...]:
+        """The judgement of every part, problem by problem, as ``rldrill verify`` gives it."""
+        return tuple(self._graded(number) for number in range(len(self.version.exercises)))
+
+    def _graded(self, number: int) -> tuple[MarkedPart, ...]:
+        judging, name = self._judging(number), self._name(number)
+        entries = {
+            part.label: Entry("", name, part.label, text, None, self.path)
+            for index, part in enumerate(judging.exercise.parts)
+            if (text := self.answers.get(Place(number, index))) is not None
+        }
         return tuple(
-            exercise.grade(
-                {
-                    part.label: self.answers[place]
-                    for index, part in enumerate(exercise.parts)
-                    if (place := Place(number, index)) in self.answers
-                }
-            )
-            for number, exercise in enumerate(self.version.exercises)
+            MarkedPart(name, label, "" if entry is None else entry.text, judged)
+            for label, entry, judged in judging.marks(entries)
         )
+
+    def _judging(self, number: int) -> Judging:
+        rules = self.version.partial[number] if self.version.partial else {}
+        return Judging(self.version.exercises[number], Rules().of(self.exam), rules)
 
 
 def version_of(exam: Exam, code: str | None) -> Version:
@@ -191,14 +214,12 @@ def version_of(exam: Exam, code: str | None) -> Version:
     )
 
 
-def by_topic(sitting: Sitting, graded: tuple[Graded, ...]) -> dict[str, tuple[Fraction, int]]:
+def by_topic(sitting: Sitting, graded: Sequence[Sequence[MarkedPart]]) -> dict[str, Score]:
     """Points reached, and to be had, topic by topic."""
-    found: dict[str, tuple[Fraction, int]] = {}
-    for exercise, result in zip(sitting.version.exercises, graded, strict=True):
-        topic = exercise.problem.family.topic.replace("_", "-")
-        points, of = found.get(topic, (Fraction(0), 0))
-        found[topic] = points + result.points, of + result.of
-    return found
+    found: dict[str, list[Score]] = {}
+    for exercise, parts in zip(sitting.version.exercises, graded, strict=True):
+        found.setdefault(exercise.problem.family.topic.replace("_", "-"), []).extend(part.score for part in parts)
+    return {topic: total(scores) for topic, scores in found.items()}
 
 
 def _quoted(text: str) -> str:

@@ -4,7 +4,6 @@ import re
 import shlex
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
-from fractions import Fraction
 from functools import partial
 
 from rich.console import Console, RenderableType
@@ -13,10 +12,10 @@ from rich.table import Table
 
 from rldrill.entries import by_name
 from rldrill.exercise import Exercise
-from rldrill.graded import GradedPart
+from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.document import counted
 from rldrill.problems.errors import reason
-from rldrill.problems.parts import Kind, Part
+from rldrill.problems.parts import Part
 from rldrill.quiz.display import Display
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.shapes import how_to_type
@@ -39,7 +38,9 @@ _HELP = (
     ("clear", "take the answer to this part back"),
     ("hand in", "end the exam, and see how it went"),
     ("leave", "go on another time: the same command takes it up; the clock does not stop"),
+    (":back", "to the part before, where 'back' is an answer; so for all of these"),
 )
+_COMMANDS = frozenset(("", "next", "back", "overview", "problem", "clear", "hand in", "leave", "?", "help"))
 #: The title of a problem with the lines around it, and the prompt.
 _BESIDES = 5
 #: The last seconds are told one by one.
@@ -138,32 +139,33 @@ class SittingScreen:
                 return False
             except KeyboardInterrupt:
                 self._print()
-                text = self._interrupted()
+                text = f":{self._interrupted()}"  # never an answer
             if self._is_over(sitting):
                 break
-            if text == "leave":
+            command = _command(sitting, place, text)
+            if command == "leave":
                 return False
-            if text == "hand in":
-                at = len(places)
-            elif text == "problem":
-                shown = None
-            elif text == "overview":
-                self._overview(sitting)
-            elif text in ("?", "help"):
-                self._display.keys(_HELP)
-            elif text == "clear":
-                sitting.answer(place, "")
-                self._keep(sitting)
-            elif text in ("", "next"):
-                at += 1
-            elif text == "back":
-                at = max(0, at - 1)
-            elif match := _GO.fullmatch(text):
-                at = self._found(places, match, at)
-            else:
+            if command is None:
                 sitting.answer(place, text)
                 self._keep(sitting)
                 at += self._is_read(sitting, place, text)
+            elif command == "hand in":
+                at = len(places)
+            elif command == "problem":
+                shown = None
+            elif command == "overview":
+                self._overview(sitting)
+            elif command in ("?", "help"):
+                self._display.keys(_HELP)
+            elif command == "clear":
+                sitting.answer(place, "")
+                self._keep(sitting)
+            elif command in ("", "next"):
+                at += 1
+            elif command == "back":
+                at = max(0, at - 1)
+            elif match := _GO.fullmatch(command):
+                at = self._found(places, match, at)
         if sitting.handed_in is not None:
             self._print(words(("Handed in. ", "bold"), "That was done in another terminal; what it wrote counts."))
         else:
@@ -210,13 +212,10 @@ class SittingScreen:
 
     def _is_read(self, sitting: Sitting, place: Place, text: str) -> bool:
         """Whether an answer can be read, which is said if not; what it is worth is not."""
-        solution, part = sitting.exercise(place).solution, sitting.part(place)
-        try:
-            fault, says = "what is missing", what_is_missing(solution, part, read_answer(solution, part, text))
-        except Unreadable as error:
-            fault, says = "it cannot be read and", error.message
+        fault, says = _says_why(sitting, place, text)
         if says:
-            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), by_name(says, part.kind))
+            says = by_name(says, sitting.part(place).kind)
+            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), says)
             self._display.signed(("?", "yellow"), kept)
         return not says
 
@@ -258,18 +257,17 @@ class SittingScreen:
 
     def _report(self, sitting: Sitting) -> None:
         graded = sitting.graded()
-        reached, of = sum((each.points for each in graded), Fraction(0)), sum(each.of for each in graded)
+        topics = by_topic(sitting, graded)
         self._print()
-        self._print(words((f"{_number(reached)} of {of} points", "bold")))
+        self._print(words((f"{_told(total(topics.values()))} points", "bold")))
         table = Table.grid(padding=(0, 2))
-        for topic, (points, most) in by_topic(sitting, graded).items():
-            table.add_row(f"  {topic}", f"{_number(points)} of {most}")
+        for topic, score in topics.items():
+            table.add_row(f"  {topic}", _told(score))
         self._print(table)
-        for number, (exercise, result) in enumerate(zip(sitting.version.exercises, graded, strict=True), 1):
-            for part in result.parts:
-                own = next(each for each in exercise.parts if each.label == part.part)
-                self._graded(f"{number}{part.part}", part, own.kind)
-                if not part.accepted:
+        for number, (exercise, parts) in enumerate(zip(sitting.version.exercises, graded, strict=True), 1):
+            for own, part in zip(exercise.parts, parts, strict=True):
+                self._graded(f"{number}{part.part}", part)
+                if not part.judged.accepted:
                     self._display.indented(render(exercise.working(part.part)))
                     self._print(words(("  The answer:", "dim")))
                     self._display.indented(renderable(exercise.answer(own)))
@@ -282,12 +280,29 @@ class SittingScreen:
             again += ["--version", sitting.version.code] if len(sitting.exam.versions) > 1 else []
         self._print(words(f"Your answers are in {sitting.path}. To grade them again: {shlex.join(again)}"), whole=True)
 
-    def _graded(self, name: str, part: GradedPart, kind: Kind) -> None:
-        says = "not answered" if part.verdict is None else by_name(part.verdict.says, kind)
-        mark, style = ("✓", "green") if part.accepted else ("✗", "red")
-        typed = "" if part.verdict is None else f"{' '.join(part.typed.split())[:60]}  "
-        points = f"{_number(part.points)} of {part.of}"
-        self._print(words((f"{mark} {name}", f"bold {style}"), f"  {points}  ", (typed, "bold"), says))
+    def _graded(self, name: str, part: MarkedPart) -> None:
+        mark, style = ("✓", "green") if part.judged.accepted else ("✗", "red")
+        typed = f"{' '.join(part.typed.split())[:60]}  " if part.typed else ""
+        points = f"  {_told(part.score)}  "
+        self._print(words((f"{mark} {name}", f"bold {style}"), points, (typed, "bold"), part.judged.reason))
+
+
+def _command(sitting: Sitting, place: Place, text: str) -> str | None:
+    """The command that was meant; None for an answer: whatever can be read as one is one, and ``:back`` the command."""
+    typed = text.lower()
+    command = typed.removeprefix(":").strip()
+    if command not in _COMMANDS and not _GO.fullmatch(command):
+        return None
+    return command if command != typed or not typed or _says_why(sitting, place, text)[1] else None
+
+
+def _says_why(sitting: Sitting, place: Place, text: str) -> tuple[str, str]:
+    """Why an answer counts as wrong whatever is right: what about it does, and a sentence; nothing if it need not."""
+    solution, part, text = sitting.exercise(place).solution, sitting.part(place), sitting.pointed(place, text)
+    try:
+        return "what is missing", what_is_missing(solution, part, read_answer(solution, part, text))
+    except Unreadable as error:
+        return "it cannot be read and", error.message
 
 
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:
@@ -304,5 +319,5 @@ def _clock(left: timedelta) -> str:
     return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h {minutes % 60} min"
 
 
-def _number(points: Fraction) -> str:
-    return f"{float(points):g}"
+def _told(score: Score) -> str:
+    return f"{float(score.points):g} of {score.of}"

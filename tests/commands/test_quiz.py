@@ -11,6 +11,11 @@ import pytest
 from rich.console import Console
 
 import rldrill
+from rldrill.commands import quiz as command
+from rldrill.exam import planning
+from rldrill.exam.blueprint import Blueprint
+from rldrill.exam.exam import Exam
+from rldrill.exam.manifest import read_manifest
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.ahead import Ahead
@@ -54,6 +59,23 @@ def quiz(
     session = Session(total)
     finished = Screen(typist.screen, typist).run(exercises, session)
     return typist, session, finished
+
+
+def test_two_terminals_that_begin_an_exam_at_once_sit_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    blueprint, saved = tmp_path / "exam.toml", tmp_path / "exam-answers.json"
+    blueprint.write_text('[[problems]]\nfamily = "return"\nlevel = 1\n')
+    draws, others = planning.plan, []
+
+    def slowly(wanted: Blueprint) -> Exam:
+        """Before this exam is drawn, another terminal has drawn one."""
+        monkeypatch.setattr(planning, "plan", draws)
+        others.append(command._begun(blueprint, saved, 2))
+        return draws(wanted)
+
+    monkeypatch.setattr(planning, "plan", slowly)
+    mine = command._begun(blueprint, saved, 1)
+    ids = [[each.id for each in exam.versions[0].exercises] for exam in (mine, *others, read_manifest(saved))]
+    assert ids[0] == ids[1] == ids[2]
 
 
 def test_a_whole_problem() -> None:

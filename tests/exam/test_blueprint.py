@@ -4,9 +4,15 @@ from pathlib import Path
 
 import pytest
 
-from rldrill.exam.blueprint import Blueprint, is_blueprint, read_blueprint, template
+from rldrill.exam.blueprint import Blueprint, Entry, is_blueprint, read_blueprint, template
 from rldrill.exam.planning import plan
-from rldrill.problems.errors import FileError
+from rldrill.problems.catalogue import family
+from rldrill.problems.errors import FileError, UsageError
+
+#: A problem, by its whole ID.
+RBF = f"rbf/1/2@{family('rbf').revision}"
+#: Two problems, the first of them this one; the name of the other follows.
+TWICE = "[[problems]]\nid = 'rbf/1/2'\n[[problems]]\nid = "
 
 
 def written(folder: Path, text: str) -> Path:
@@ -77,7 +83,10 @@ def test_a_problem_file_is_no_blueprint() -> None:
             "line 1: There is no topic or family 'x'; 'rldrill list'",
         ),
         ("exclude = 'fundamentals'\n[[problems]]\nfamily = 'return'", "line 2: return is left out by exclude;"),
-        ("[[problems]]\nid = 'rbf/1/2'\n[[problems]]\nid = 'rbf/1/2'", "line 3: rbf/1/2 is there already;"),
+        *(
+            (f"{TWICE}'{same}'", f"line 3: the problem {RBF} is there already;")
+            for same in ("rbf/1/2", RBF, "rbf/1/002")
+        ),
         ("title = ", "the syntax is broken"),
         ("", "there are no problems in it; begin one with a line [[problems]]"),
     ],
@@ -92,3 +101,12 @@ def test_what_is_wrong_is_said_with_the_line(text: str, sentence: str | None, tm
     assert str(caught.value).startswith(str(path))
     assert sentence in str(caught.value)
     assert caught.value.exit_code == 3
+
+
+def test_of_a_problem_that_is_named_twice_the_command_line_is_told_too(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=f"The problem {RBF} is there already"):
+        plan(Blueprint(problems=(Entry(id="rbf/1/2"), Entry(id=RBF))))
+    own = tmp_path / "own.toml"
+    own.write_text('family = "return"\n[given]\ngamma = "1/2"\nrewards = [1, 4]\ntime = 0\n')
+    with pytest.raises(UsageError, match="This problem is there already"):
+        plan(Blueprint(problems=(Entry(file=str(own)), Entry(file=str(own)))))

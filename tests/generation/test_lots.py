@@ -4,7 +4,9 @@ import json
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 from typing import Any
 
 import pytest
@@ -12,6 +14,7 @@ from typer.testing import CliRunner
 
 from rldrill.cli import app
 from rldrill.exam.selection import MAX_DRAWN
+from rldrill.generation.folder import Folder
 from rldrill.generation.lots import Lot, Split, lots
 from rldrill.generation.records import Extra, Record
 from rldrill.generation.running import Here, drawn, processes
@@ -105,6 +108,43 @@ def test_a_folder_of_another_run_is_left_alone(tmp_path: Path, whole: Path) -> N
     assert "was begun with other arguments" in str(refused)
     (tmp_path / "notes.txt").write_text("mine")
     assert "holds other files already" in str(generate(tmp_path).exception)
+
+
+def test_a_run_without_a_seed_goes_on_with_that_of_its_folder(tmp_path: Path) -> None:
+    def run(folder: str, *more: str) -> Any:
+        return CliRunner().invoke(app, ["generate", "return", "-n", "3", "-o", str(tmp_path / folder), *more])
+
+    begun = run("g")
+    written_then = contents(tmp_path / "g")
+    (tmp_path / "g" / "return-2.jsonl").unlink()
+    again = run("g")
+    assert (again.exit_code, again.stderr) == (0, begun.stderr)  # seed 153634, the same
+    assert contents(tmp_path / "g") == written_then
+    assert "was begun with other arguments" in str(run("g", "--seed", "1").exception)
+    assert "was begun with other arguments" in str(run("g", "--answers").exception)
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken" / "generate.json").write_text("[]")
+    assert "was begun with other arguments" in str(run("broken").exception)
+
+
+def test_shards_that_begin_a_folder_at_once_share_it(tmp_path: Path) -> None:
+    shards = 8
+    together = Barrier(shards)
+
+    def begun(path: Path) -> None:
+        together.wait()
+        Folder(path, "jsonl", {"names": ["return"], "seed": 1})
+
+    with ThreadPoolExecutor(shards) as pool:
+        for turn in range(50):
+            list(pool.map(begun, [tmp_path / str(turn)] * shards))
+    assert [path.name for path in (tmp_path / "0").iterdir()] == ["generate.json"]
+
+
+def test_what_a_shard_that_was_ended_has_left_unfinished_is_no_other_file(tmp_path: Path) -> None:
+    (tmp_path / ".generate.json.k3j2").write_text("")
+    Folder(tmp_path, "jsonl", {"seed": 1})
+    Folder(tmp_path, "jsonl", {"seed": 1})
 
 
 def test_parquet_holds_the_same_records(tmp_path: Path, whole: Path) -> None:

@@ -24,9 +24,9 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def run(installed: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
+def run(installed: Path, *arguments: str, module: bool = True) -> "subprocess.CompletedProcess[str]":
     environment = os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{installed}"}
-    command = [sys.executable, "-m", "rldrill", *arguments]
+    command = [sys.executable, *(("-m", "rldrill") if module else ()), *arguments]
     return subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=60)
 
 
@@ -49,6 +49,29 @@ def test_its_answers_are_graded_with_their_mistakes(installed: Path, tmp_path: P
     ann, ben = (student["answers"][0] for student in json.loads(done.stdout)["students"])
     assert (ann["verdict"], ben["verdict"]) == ("right", "misconception")
     assert "its factor is γ^n" in ben["reason"]
+
+
+def test_the_quiz_knows_its_skills_and_its_mistakes(installed: Path) -> None:
+    code = """if True:
+        from datetime import UTC, datetime
+        from itertools import islice
+        from rldrill.quiz.drilling import drill
+        from rldrill.quiz.planning import Plan, skills
+        from rldrill.quiz.topics import topic_map
+        now = datetime.now(UTC)
+        order = skills(["optimism"])
+        print(*(f"{skill.family}/{skill.level}" for skill in order), Plan(order, [], 3, now).next(now))
+        for mistake in ("begins-at-once", "doubled"):
+            (exercise,) = islice(drill(mistake, [], ["optimism"]).exercises(1), 1)
+            print(exercise.problem.family.name)
+        topic_map([], now)
+    """
+    done = run(installed, "-c", code, module=False)
+    assert done.stdout.split("\n") == [
+        "optimism/1 optimism/2 optimism/3 optimism, level 1", "optimism", "optimism", "",
+    ], done.stderr  # fmt: skip
+    topics = [share["name"] for share in json.loads(run(installed, "stats", "--json").stdout)["shares"]]
+    assert topics[-1] == "exploration"
 
 
 def test_a_package_that_is_none_is_told(tmp_path: Path) -> None:

@@ -1,6 +1,9 @@
 """``rldrill history`` as it is used: out, in, and gone."""
 
+import os
 import sqlite3
+import subprocess
+import sys
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -14,6 +17,7 @@ from rldrill.history.attempts import Attempt
 from rldrill.history.place import HistoryError
 from rldrill.problems.errors import FileError
 
+ROOT = Path(__file__).parent.parent.parent
 FIRST = Attempt(
     id="1", time=datetime(2026, 11, 25, 8, tzinfo=UTC), sitting="one", family="td-zero", level=1, seed=7, revision=1,
     part="a", parts=1, typed="γ = ½", outcome="wrong", misconceptions=(), hints=0, retries=0, seconds=1.0, credit=0.0,
@@ -44,6 +48,39 @@ def test_what_is_written_out_is_read_in_elsewhere(home: Path, tmp_path: Path, mo
     run("import", str(tmp_path / "out.jsonl"))
     run("import", typed=text)  # twice is once
     assert log.read(tmp_path / "elsewhere" / "history.db") == log.read(home)
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-8", "ascii"])
+def test_what_goes_through_a_pipe_is_the_same_whatever_the_console_takes(
+    home: Path, tmp_path: Path, encoding: str
+) -> None:
+    def piped(folder: Path, *arguments: str, typed: bytes = b"") -> bytes:
+        return subprocess.run(
+            [sys.executable, "-m", "rldrill", "history", *arguments], check=True, input=typed, stdout=subprocess.PIPE,
+            env={**os.environ, "RLDRILL_HOME": str(folder), "PYTHONIOENCODING": encoding, "PYTHONPATH": str(ROOT)},
+        ).stdout  # fmt: skip
+
+    piped(tmp_path / "a", "import", typed=piped(home.parent, "export"))
+    assert log.read(tmp_path / "a" / "history.db") == log.read(home)  # γ = ½
+    run("export", str(tmp_path / "out.jsonl"))
+    piped(tmp_path / "b", "import", typed=(tmp_path / "out.jsonl").read_bytes())
+    assert log.read(tmp_path / "b" / "history.db") == log.read(home)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_file_that_a_shell_has_written_is_read(home: Path, tmp_path: Path, encoding: str) -> None:
+    text = run("export")
+    run("forget", "--yes")
+    (tmp_path / "out.jsonl").write_text(text, encoding=encoding)
+    run("import", str(tmp_path / "out.jsonl"))
+    assert log.read(home) == (FIRST, SECOND)
+
+
+def test_what_is_no_text_is_not_read(home: Path, tmp_path: Path) -> None:
+    (tmp_path / "out.jsonl").write_bytes(run("export").encode("cp1252", "backslashreplace"))
+    with pytest.raises(FileError, match=r"out\.jsonl, line 1: this is not UTF-8 text"):
+        run("import", str(tmp_path / "out.jsonl"))
+    assert len(log.read(home)) == 2
 
 
 def test_a_file_with_a_bad_line_is_not_read_at_all(home: Path, tmp_path: Path) -> None:

@@ -90,7 +90,16 @@ def test_lines_of_json_are_read_again() -> None:
         (to_line(FIRST).replace('"level": 1', '"level": "1"'), "'level'"),
         (to_line(FIRST).replace("+00:00", ""), "time zone"),
         (to_line(FIRST).replace('"right"', '"splendid"'), "splendid"),
-        (to_line(FIRST).replace("40.5", "NaN"), "'seconds'"),
+        (to_line(FIRST).replace("40.5", "NaN"), "'seconds' is a number from 0"),
+        (to_line(FIRST).replace("40.5", "-5"), "'seconds' is a number from 0"),
+        (to_line(FIRST).replace("40.5", "1" + 400 * "0"), "'seconds' is a number from 0"),
+        (to_line(FIRST).replace('"credit": 1.0', '"credit": 7'), "'credit' is a number from 0 to 1"),
+        (to_line(FIRST).replace('"parts": 1', '"parts": 0'), "'parts' is a whole number from 1"),
+        (to_line(FIRST).replace('"level": 1', '"level": 99'), "'level' is a whole number from 1 to 3"),
+        (to_line(FIRST).replace('"retries": 0', '"retries": -1'), "'retries' is a whole number from 0"),
+        (to_line(FIRST).replace('"one"', '"\\ud800"'), "'sitting' is a text"),
+        (to_line(FIRST).replace("2026-11-25", "9999-12-31"), "'time' is in a year from 1970 to 2199"),
+        (to_line(FIRST).replace("2026-11-25T08:00:00+00:00", "0001-01-01T00:00:00+14:00"), "line 1"),
     ],
 )
 def test_a_line_that_is_no_attempt_is_named(line: str, fragment: str) -> None:

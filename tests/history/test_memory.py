@@ -15,20 +15,24 @@ DAY = timedelta(days=1)
 
 
 def sitting(name: str, when: datetime, *outcomes: str, family: str = "td-zero", parts: int = 1) -> list[Attempt]:
-    """Attempts at the parts ``a``, ``b``, …: ``right``, ``wrong right`` for a second try, ``hint right``."""
+    """Attempts at the parts ``a``, ``b``, …: ``right``, ``wrong right`` for a second try, ``hint right``.
+
+    ``skipped right`` is what was typed off, and ``missed right`` what was the only other answer: they earn nothing.
+    """
     made: list[Attempt] = []
     for label, words in zip("abcdef", outcomes, strict=False):
-        tries = hints = 0
+        tries = hints = seen = 0
         for word in words.split():
             if word == "hint":
                 hints += 1
                 continue
+            outcome, credit = "wrong" if word == "missed" else word, word in ("right", "follow-through") and not seen
+            id_ = f"{name}{len(made)}"
             made.append(
-                Attempt(
-                    f"{name}{len(made)}", when, name, family, 1, 7, 1, label, parts, "", word, (), hints, tries, 9.0, 0
-                )
+                Attempt(id_, when, name, family, 1, 7, 1, label, parts, "", outcome, (), hints, tries, 9.0, credit)
             )
-            tries += 1
+            tries += word != "skipped"
+            seen += word in ("skipped", "missed")
     return made
 
 
@@ -43,6 +47,9 @@ def sitting(name: str, when: datetime, *outcomes: str, family: str = "td-zero", 
         (("right", "skipped"), 2, Rating.Again),
         (("right", "wrong skipped", "right"), 3, Rating.Again),
         (("right", "close"), 3, Rating.Again),
+        (("skipped right",), 1, Rating.Again),
+        (("right", "missed right"), 2, Rating.Again),
+        (("skipped right right",), 1, Rating.Again),
         (("right",), 2, None),  # left in the middle, all well so far
     ],
 )
@@ -50,11 +57,26 @@ def test_how_a_problem_is_rated(outcomes: tuple[str, ...], parts: int, rating: R
     assert rated(sitting("one", NOW, *outcomes, parts=parts)) is rating
 
 
+def test_what_was_typed_off_is_not_right_at_the_first_try_and_not_mastered() -> None:
+    attempts = sitting("one", NOW, "skipped right")
+    assert [attempt.first_time for attempt in attempts] == [False, False]
+    (memory,) = remembered(attempts).values()
+    assert not memory.mastered
+    assert memory.due == NOW + DAY / 2
+
+
 def test_a_problem_is_reviewed_when_its_last_part_is_answered() -> None:
     first, last = sitting("one", NOW, "right", "right", parts=2)
     later = replace(last, time=NOW + timedelta(minutes=40))
     (memory,) = remembered([later, first]).values()
     assert memory.last == NOW + timedelta(minutes=40)
+
+
+def test_a_clock_that_is_set_back_makes_no_wrong_answer_of_a_right_one() -> None:
+    wrong, right = sitting("one", NOW, "wrong right")
+    (memory,) = remembered([wrong, replace(right, time=NOW - timedelta(hours=1))]).values()
+    assert memory.ratings == (Rating.Hard,)
+    assert memory.last == NOW
 
 
 def test_what_went_well_comes_after_days_and_what_went_wrong_on_the_next_day() -> None:

@@ -1,6 +1,7 @@
 """Progress: what is worked out from the log, and how it looks."""
 
 import io
+import json
 from collections.abc import Iterator
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
@@ -19,6 +20,7 @@ from rldrill.history.progress import Day, Mistake, Progress, Share, progress
 from rldrill.quiz.mistakes import called
 from rldrill.quiz.progress import shown
 from rldrill.solutions.diagnosis import weights
+from zones import zone
 
 NOW = datetime(2026, 11, 25, 8, tzinfo=UTC)
 DAY = timedelta(days=1)
@@ -116,6 +118,16 @@ def test_the_command(tmp_path: Path) -> None:
     for ending, head in heads.items():
         stats(tmp_path, "-o", str(tmp_path / f"progress{ending}"))
         assert (tmp_path / f"progress{ending}").read_bytes().startswith(head)
+
+
+def test_a_day_is_called_as_it_was_then_whatever_the_season_is_now(tmp_path: Path) -> None:
+    # In Berlin 22:30 of Greenwich is half past midnight in summer, and half past eleven in winter.
+    late, later = (datetime(2026, month, 14, 22, 30, tzinfo=UTC) for month in (1, 7))
+    first = next(log())
+    append(tmp_path / "history.db", [replace(first, time=late), replace(first, id="2", time=later)])
+    with zone("Europe/Berlin"):
+        days = json.loads(stats(tmp_path, "--json"))["days"]
+    assert [each["day"] for each in days] == ["2026-01-14", "2026-07-15"]
 
 
 MONDAY = date(2026, 11, 23)

@@ -182,7 +182,7 @@ def test_an_exam_that_is_killed_goes_on_with_what_was_answered(tmp_path: Path) -
     running.sees("min left] 1b > ")
     running.types("go 1a", "your answer so far: 34/9", "1a > ")
     running.types("hand in", "1 of 2 parts have no answer. Hand in?")
-    running.types("yes", "of 2 points", "1b 0 of 1 not answered")
+    running.types("yes", "of 2 points", "1b 0 of 1 Not answered")
     assert running.ends() == 0
 
 

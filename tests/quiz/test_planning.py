@@ -7,11 +7,14 @@ from itertools import count, pairwise
 
 import pytest
 
+from rldrill.commands import quiz as command
 from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Skill
+from rldrill.history.zone import LOCAL
 from rldrill.problems.catalogue import topics
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.planning import Plan, skills
+from zones import zone
 
 NOW = datetime(2026, 11, 25, 8, tzinfo=UTC)
 DAY, MINUTE = timedelta(days=1), timedelta(minutes=1)
@@ -23,7 +26,9 @@ _numbers = count()
 def answered(skill: Skill, when: datetime, outcome: str = "right", mistake: str = "") -> Attempt:
     name = str(next(_numbers))
     mistakes = (mistake,) if mistake else ()
-    return Attempt(name, when, name, skill.family, skill.level, 7, 1, "a", 1, "", outcome, mistakes, 0, 0, 60.0, 0.0)
+    return Attempt(
+        name, when, name, skill.family, skill.level, 7, 1, "a", 1, "", outcome, mistakes, 0, 0, 60.0, outcome == "right"
+    )
 
 
 def studied(
@@ -190,6 +195,37 @@ def test_it_is_said_how_often_a_mistake_was_made_in_thirty_days(times: int, says
     every = [NOW - 31 * DAY, *(NOW - number * DAY for number in range(9, 9 - times, -1))]
     log = [answered(skill, when, "wrong", "forgot-gamma") for when in every]
     assert Plan((skill,), log, 1, NOW).says().endswith(f"because of “forgot gamma”, {says}.")
+
+
+def test_the_day_of_the_exam_is_a_day_where_the_student_is() -> None:
+    skill = Skill("td-zero", 1)
+    with zone("America/Los_Angeles"):  # 18:00 on the 18th, and in Greenwich the 19th
+        evening = datetime(2026, 11, 19, 2, tzinfo=UTC).astimezone(LOCAL)
+        assert "; 1 day to the exam." in Plan(ORDER, [], 10, evening, date(2026, 11, 19)).says()
+        plan = Plan((skill,), [answered(skill, evening.astimezone(UTC))], 10, evening, date(2026, 11, 20))
+        assert plan.due_at(skill) == datetime(2026, 11, 19, 8, tzinfo=UTC)  # its midnight before, eight hours behind
+    with zone("Pacific/Kiritimati"):  # the morning of the 28th, and in Greenwich the 27th
+        morning = datetime(2026, 11, 27, 15, 1, tzinfo=UTC).astimezone(LOCAL)
+        with pytest.raises(UsageError, match="is not ahead"):
+            Plan(ORDER, [], 10, morning, date(2026, 11, 28))
+
+
+@pytest.mark.parametrize("name", ["Pacific/Kiritimati", "Etc/GMT+12"])  # one of them has another date than Greenwich
+def test_the_command_goes_by_the_day_where_it_is_typed(name: str) -> None:
+    with zone(name):
+        today = datetime.now(LOCAL).replace(tzinfo=None)
+        with pytest.raises(UsageError, match="is not ahead"):
+            command._plan([], [], 10, today)
+        assert "1 day to the exam" in command._plan([], [], 10, today + DAY).says()
+
+
+def test_as_many_new_problems_are_asked_as_were_said() -> None:
+    # 15/22 · 22 is 15, and with floats less
+    log = [answered(skill, NOW - 90 * DAY) for skill in ORDER[:7]]
+    plan = Plan(ORDER, log, 22, NOW)
+    assert plan.says().startswith("7 due, 15 new;")
+    asked = [plan.next(NOW) for _ in range(22)]
+    assert sum(skill not in ORDER[:7] for skill in asked) == 15
 
 
 def test_the_first_line_says_why_a_skill_is_asked_first() -> None:

@@ -3,9 +3,11 @@
 from fractions import Fraction
 
 import pytest
+from fsrs import Rating
 
 import rldrill
 from rldrill.history.attempts import Attempt
+from rldrill.history.memory import rated
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
 
@@ -105,3 +107,17 @@ def test_what_the_diagnosis_finds_is_kept_where_no_listed_mistake_gives_the_answ
         fresh.answer(fresh.parts[0], typed)
         recorder.ended(fresh, fresh.parts[0])
     assert [attempt.misconceptions for attempt in kept] == [("sign",), ("first-reward-discounted",)]
+
+
+def test_what_was_looked_up_and_typed_off_is_asked_again_on_the_next_day() -> None:
+    kept: list[Attempt] = []
+    recorder = Recorder(kept.append)
+    fresh, first, _ = record()
+    first.state = State.SHOWN
+    recorder.ended(fresh, first)
+    fresh = fresh.again()
+    for part, typed in zip(fresh.parts, ("4", "3"), strict=True):
+        fresh.answer(part, typed)
+        recorder.ended(fresh, part)
+    assert [attempt.credit for attempt in kept] == [0, 0, 1]
+    assert rated(kept) is Rating.Again

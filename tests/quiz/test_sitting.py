@@ -5,8 +5,10 @@ from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
+from msgspec.structs import replace
 from rich.console import Console
 
 from rldrill.exam.blueprint import Blueprint, Entry
@@ -14,6 +16,7 @@ from rldrill.exam.exam import Exam
 from rldrill.exam.manifest import manifest, read_manifest, written
 from rldrill.exam.planning import plan
 from rldrill.grading.assignment import Assignment
+from rldrill.grading.report import Score
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.quiz.prompt import Prompt
@@ -63,6 +66,10 @@ def sitting(tmp_path: Path) -> Sitting:
     return Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
 
 
+def points(sitting: Sitting) -> Fraction:
+    return sum((part.score.points for parts in sitting.graded() for part in parts), Fraction(0))
+
+
 def right(sitting: Sitting) -> list[str]:
     answers = (sitting.exercise(place).answers()[sitting.part(place).label] for place in sitting.places)
     return [str(next(iter(answer.values()))) if isinstance(answer, dict) else str(answer) for answer in answers]
@@ -85,8 +92,8 @@ def test_right_answers_earn_everything(sitting: Sitting) -> None:
     assert "3 of 3 points" in text
     assert [prompt.split(" >")[0] for prompt in hand.prompts[:3]] == ["1a", "1b", "2a"]
     assert by_topic(sitting, sitting.graded()) == {
-        "fundamentals": (Fraction(2), 2),
-        "temporal-difference": (Fraction(1), 1),
+        "fundamentals": Score(Fraction(2), 2),
+        "temporal-difference": Score(Fraction(1), 1),
     }
 
 
@@ -105,6 +112,15 @@ def test_back_and_change_and_go_to_a_part(sitting: Sitting) -> None:
     assert "There is no part 9." in text
     assert "your answer so far: 2" in text
     assert "3 of 3 points" in text
+
+
+def test_a_word_that_can_be_the_answer_is_the_answer_and_with_a_colon_it_is_the_command(tmp_path: Path) -> None:
+    # linear-value/1/1: Q(s, walk) = −3·3 + 2·3 = −3 and Q(s, back) = −3·3 + 3·3 = 0, so that 'back' is greedy
+    planned = plan(Blueprint(problems=(Entry(id="linear-value/1/1"), PROBLEMS[1]), seed=1))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
+    _, _, hand = sit(sitting, "-3, 0", "back", "Back", ":Back", "BACK", "GO 1A", "back", ":leave")
+    assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1b", "2a", "1b", "1a", "1a", "1a", "1a"]
+    assert sitting.answers == {Place(0, 0): "-3, 0", Place(0, 1): "back"}
 
 
 def test_who_does_not_hand_in_goes_on_at_the_first_part_without_an_answer_or_at_the_first_of_all(
@@ -130,7 +146,7 @@ def test_what_is_missing_is_said_and_asked_again_and_counts_as_wrong(tmp_path: P
     assert "medium is missing; give it too." in text
     assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b", "1b"]
     (graded,) = sitting.graded()
-    assert [part.points for part in graded.parts] == [2, Fraction(1, 2)]
+    assert [part.score.points for part in graded] == [2, Fraction(1, 2)]
 
 
 def test_ctrl_c_asks(sitting: Sitting) -> None:
@@ -193,7 +209,7 @@ def test_whatever_is_typed_is_kept_and_counts_as_verify_counts_it(sitting: Sitti
     again.resume()
     assert again.answers == sitting.answers
     assert again.handed_in is None
-    assert verify([sitting.path]).score.points == sum((graded.points for graded in again.graded()), Fraction(0))
+    assert verify([sitting.path]).score.points == points(again)
 
 
 def test_a_disk_that_takes_nothing_is_told_once_and_the_exam_goes_on(tmp_path: Path) -> None:
@@ -218,11 +234,10 @@ def test_a_disk_that_takes_nothing_is_told_once_and_the_exam_goes_on(tmp_path: P
 def test_verify_gives_the_same_points(sitting: Sitting, typed: tuple[str, ...]) -> None:
     own = right(sitting)
     sit(sitting, *(own[index] if text == "right" else text for index, text in enumerate(typed)), "hand in", "yes")
-    points = sum((graded.points for graded in sitting.graded()), Fraction(0))
     if typed:
-        assert verify([sitting.path]).score.points == points
+        assert verify([sitting.path]).score.points == points(sitting)
     else:
-        assert points == 0
+        assert points(sitting) == 0
 
 
 def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path) -> None:
@@ -236,6 +251,36 @@ def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path
     assert f"rldrill verify {tmp_path / 'answers.toml'} --for {tmp_path / 'exam.json'}\n" in text
     settings = Settings(assignment=Assignment(tmp_path / "exam.json"))
     assert verify([sitting.path], settings).score.points == 9
+
+
+#: td-zero/2/18: (a) is −6, 16/5, −3 and of 3 points, (b) medium: 111/25, critical: 47/5 and of one.
+TABLE = ("-6, 0, -3", "medium: 4.44, critical: 9.4")
+
+
+@pytest.mark.parametrize(
+    ("id_", "rules", "typed", "earned", "of"),
+    [
+        ("td-zero/2/18", {}, TABLE, 1, 4),  # a table that is half right earns all or nothing, unless the exam says so
+        ("td-zero/2/18", {"partial": "entries"}, TABLE, 3, 4),
+        ("td-zero/2/18", {"own": ("entries", "all")}, TABLE, 3, 4),
+        # the return is 2, then 9 + 1/3·2 = 29/3
+        ("return/1/430", {"decimal_mark": ","}, ("2,0", "9,67"), 2, 2),
+        # linearise-affine/1/6 (b) is [3/4 −1; 0 1]: the last row is 0 1 in every draw
+        ("linearise-affine/1/6", {"partial": "entries"}, ("", "7 7; 0 1"), 0, None),
+    ],
+)
+def test_the_points_in_the_terminal_are_those_that_verify_gives_by_the_manifest(
+    tmp_path: Path, id_: str, rules: dict[str, Any], typed: tuple[str, ...], earned: int, of: int | None
+) -> None:
+    entry = Entry(id=id_, partial=rules.pop("own", None))
+    planned = plan(Blueprint(problems=(entry,), seed=1).but(**rules))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START, tmp_path / "exam.json")
+    (tmp_path / "exam.json").write_bytes(written(manifest(planned)))
+    _, text, _ = sit(sitting, *typed, "hand in", "yes", width=400)
+    assert f"\n{earned} of {of or sitting.version.points} points\n" in text
+    assert "Kept, but" not in text
+    score = verify([sitting.path], Settings(assignment=Assignment(tmp_path / "exam.json"))).score
+    assert score == Score(Fraction(earned), sitting.version.points)
 
 
 def test_where_there_are_several_versions_the_command_names_the_one_that_was_sat(tmp_path: Path) -> None:
@@ -253,6 +298,21 @@ def test_the_manifest_makes_the_same_exam(sitting: Sitting, tmp_path: Path) -> N
     again = Sitting(read, version_of(read, "a"), sitting.path, START)
     again.resume()
     assert again.answers == {Place(0, 0): "5"}
+
+
+def test_what_somebody_has_written_into_the_file_as_verify_reads_it_is_taken_in(sitting: Sitting) -> None:
+    sitting.save()
+    first, second = (f'"{exercise.id}"' for exercise in sitting.version.exercises)
+    begun = f"# begun: {START.isoformat()}\n"
+    # td-zero/1/62590 has one part, which needs no name
+    sitting.path.write_text(f'{begun}{second} = "21/4"\n[{first}]\n"(A)" = 5.50\nb = 29\n')
+    sitting.resume()
+    assert sitting.answers == {Place(0, 0): "5.50", Place(0, 1): "29", Place(1, 0): "21/4"}
+    assert points(sitting) == verify([sitting.path]).score.points == 1
+    for broken in (f'{first} = "2"', f'{first} = {{c = "2"}}', f"{first} = {{a = [[[2]]]}}"):
+        sitting.path.write_text(f'{begun}{broken}\n{second} = "21/4"\n')
+        with pytest.raises(FileError, match="name another"):
+            sitting.resume()
 
 
 def test_the_file_of_something_else_is_refused(sitting: Sitting) -> None:
@@ -283,6 +343,23 @@ def test_two_terminals_in_one_exam_keep_what_was_typed_in_either(tmp_path: Path)
     assert third.answers == {Place(0, 0): "4", Place(0, 1): "2"}  # of one part the later; what was cleared is gone
 
 
+def test_two_terminals_that_begin_an_exam_at_once_keep_what_was_typed_in_either(tmp_path: Path) -> None:
+    planned, path = exam(), tmp_path / "answers.toml"
+    first, second = (
+        Sitting(planned, version_of(planned, None), path, START + timedelta(seconds=second)) for second in (0, 1)
+    )  # the file is there for neither
+    first.save()
+    first.answer(Place(0, 0), "1")
+    first.save()
+    second.save()
+    second.answer(Place(0, 1), "2")
+    second.save()
+    third = Sitting(planned, version_of(planned, None), path, START + timedelta(hours=1))
+    third.resume()
+    assert third.answers == {Place(0, 0): "1", Place(0, 1): "2"}
+    assert third.begun == second.begun == START
+
+
 def test_what_is_handed_in_elsewhere_is_over_here(sitting: Sitting) -> None:
     sitting.save()
     other = Sitting(sitting.exam, sitting.version, sitting.path, START)
@@ -305,6 +382,21 @@ def test_a_file_that_was_spoilt_meanwhile_costs_no_answer(sitting: Sitting) -> N
     again = Sitting(sitting.exam, sitting.version, sitting.path, START)
     again.resume()
     assert again.answers == {Place(0, 0): "1", Place(0, 1): "2"}
+
+
+def test_where_an_id_stands_twice_in_an_old_manifest_the_problems_are_called_by_their_numbers(
+    sitting: Sitting, tmp_path: Path
+) -> None:
+    ((first, *_), version) = sitting.version.exercises, sitting.version
+    twice = replace(version, exercises=(first, first), partial=())
+    planned = replace(sitting.exam, versions=(twice,))
+    path, saved = tmp_path / "twice.toml", tmp_path / "twice.json"
+    saved.write_bytes(written(manifest(planned)))
+    sit(Sitting(planned, twice, path, START), "2", "29/3", "2", "29/3", "leave")
+    again = Sitting(planned, twice, path, START)
+    again.resume()
+    assert list(again.answers.values()) == ["2", "29/3", "2", "29/3"]
+    assert verify([path], Settings(assignment=Assignment(saved))).score == Score(Fraction(4), 4)
 
 
 def test_a_problem_of_ones_own_is_called_by_its_number(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ def shown(asked: dict[str, int]) -> dict[str, str]:
     """The lines by their topics, where so many skills of each were answered rightly just now."""
     every = [skill for topic, number in asked.items() for skill in skills(topics()[topic])[:number]]
     log = [
-        Attempt(str(n), NOW, str(n), skill.family, skill.level, 7, 1, "a", 1, "", "right", (), 0, 0, 60.0, 0.0)
+        Attempt(str(n), NOW, str(n), skill.family, skill.level, 7, 1, "a", 1, "", "right", (), 0, 0, 60.0, 1.0)
         for n, skill in enumerate(every)
     ]
     console = Console(file=io.StringIO(), width=80, color_system=None)
