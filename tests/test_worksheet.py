@@ -28,7 +28,7 @@ from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
 from rldrill.print.worksheet import even_columns, options, space_of, worksheet_source
-from rldrill.problems.errors import UsageError
+from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.notations import used
 from rldrill.problems.parts import Choice, Matrix, Number, Part
 from rldrill.problems.pictures import Picture
@@ -433,6 +433,39 @@ def test_a_second_run_overwrites_nothing_unless_it_is_forced_and_leaves_nothing_
     run("return", "-n", 1, "--seed", 5, "--versions", 2, "--force", *output)
     assert set(bytes_in(tmp_path)) == {"a-A.pdf", "a-A-key.pdf", "a-B.pdf", "a-B-key.pdf"}
     assert bytes_in(tmp_path)["a-A.pdf"] != before["a-A.pdf"]
+
+
+def test_an_exam_stays_until_the_next_one_is_drawn(tmp_path: Path) -> None:
+    blueprint, output = tmp_path / "exam.toml", ("-o", tmp_path / "a.pdf")
+    blueprint.write_text('points = 5\n[[problems]]\nfamily = "return"\nlevel = 1\n')
+    run(blueprint, *output)
+    before = {path.name: path.read_bytes() for path in tmp_path.glob("a*")}
+    blueprint.write_text(blueprint.read_text().replace("5", "1"))  # for two parts
+    with pytest.raises(FileError, match="raise the total"):
+        run(blueprint, *output, "--force")
+    assert {path.name: path.read_bytes() for path in tmp_path.glob("a*")} == before
+
+
+def test_keys_that_are_printed_elsewhere_are_those_of_the_exam_that_is_named(tmp_path: Path) -> None:
+    for seed, name in enumerate(("one", "two")):
+        run("return", "-n", 1, "--seed", seed, "-o", tmp_path / f"{name}.pdf")
+    printed = bytes_in(tmp_path)
+    one, two = (("--from", tmp_path / f"{name}.json", "--key", "-o", tmp_path / "keys.pdf") for name in ("one", "two"))
+    assert run(*one)[0] == ["keys-key.pdf"]
+    for again in (one, two):  # nothing tells whose the keys are that lie there
+        assert "keys-key.pdf" in refused(*again)
+    assert bytes_in(tmp_path)["keys-key.pdf"] == printed["one-key.pdf"]
+    assert run(*two, "--force")[0] == ["keys-key.pdf"]
+    assert bytes_in(tmp_path) == {**printed, "keys-key.pdf": printed["two-key.pdf"]}
+
+
+def test_keys_that_are_forced_on_another_exam_leave_its_manifest(tmp_path: Path) -> None:
+    for seed, name in enumerate(("one", "two")):
+        run("return", "-n", 1, "--seed", seed, "-o", tmp_path / f"{name}.pdf")
+    manifest = (tmp_path / "one.json").read_bytes()
+    run("--from", tmp_path / "two.json", "--key", "-o", tmp_path / "one.pdf", "--force")
+    assert (tmp_path / "one.json").read_bytes() == manifest
+    assert (tmp_path / "one.pdf").exists()
 
 
 def test_a_run_that_was_ended_goes_on(tmp_path: Path) -> None:
