@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from time import process_time
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -35,8 +35,9 @@ SEARCH, ALL_SEARCHES = 1.0, 300.0
 _KEPT = 50_000
 #: So many problems that somebody names are kept, solved.
 _PROBLEMS = 200
-#: Entries that are the same in so many other draws are the same in every draw.
-_OTHER_DRAWS = 4
+#: Entries that are the same in so many other draws are the same in every draw: of what varies, an entry may be so in
+#: every second draw.
+_OTHER_DRAWS = 16
 _COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
 _MONTH = "(?:jan|feb|m[aä]r|apr|ma[iy]|jun|jul|aug|sep|o[ck]t|nov|de[cz])[a-z]*"
 #: What a spreadsheet makes of 3/4: 3-Apr, 4-Mar, Apr-03, 03. Apr, 2024-04-03, 03.04.2024, 3/4/2024.
@@ -283,10 +284,12 @@ class _Problem:
         if identity is None:
             return frozenset()
         if part.label not in self._same:
-            cells = answer_kind(part.kind).cells(self.exercise.solution.answers[part.label])
-            same = set(cells)
+            same = answer_kind(part.kind).cells(self.exercise.solution.answers[part.label])
             for seed in range(_OTHER_DRAWS):
-                same &= _agreeing(cells, part.label, draw(identity.family, identity.level, seed))
+                other = _drawn(identity.family, identity.level, seed).get(part.label, {})
+                same = {name: content for name, content in same.items() if name in other and other[name] == content}
+                if not same:
+                    break
             self._same[part.label] = frozenset(same)
         return self._same[part.label]
 
@@ -337,9 +340,9 @@ class _Problem:
         return True
 
 
-def _agreeing(cells: Mapping[str, Any], label: str, other: Exercise) -> set[str]:
-    part = next((part for part in other.parts if part.label == label), None)
-    if part is None:
-        return set()
-    answers = answer_kind(part.kind).cells(other.solution.answers[label])
-    return {name for name, content in cells.items() if name in answers and answers[name] == content}
+@lru_cache(maxsize=20 * _OTHER_DRAWS)
+def _drawn(family: str, level: int, seed: int) -> dict[str, dict[str, Any]]:
+    """The entries of the right answer to every part of a draw."""
+    exercise = draw(family, level, seed)
+    answers = exercise.solution.answers
+    return {part.label: answer_kind(part.kind).cells(answers[part.label]) for part in exercise.parts}

@@ -295,6 +295,16 @@ def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, an
     assert part.score.points == (part.score.of if share == 1 else 0)
 
 
+@pytest.mark.parametrize(("problem", "answer"), [("kalman-filter/1/5", "9, 4"), ("kalman-filter/1/7", "9, 3")])
+def test_an_entry_that_some_draws_have_alike_counts(tmp_path: Path, problem: str, answer: str) -> None:
+    # (b) asks for the mean and the variance behind the measurement, Σ̄ Q / (Σ̄ + Q) with Σ̄ = Σ₀ + R: of 2 + 4 and 12 it
+    # is 6 · 12 / 18 = 4, of 3 + 1 and 12 it is 4 · 12 / 16 = 3. The draws of the seeds 0 to 3 have 4, too.
+    path = tmp_path / "answers.csv"
+    path.write_text(f'{HEAD}Ann,,{problem},b,"{answer}"\n')
+    (part,) = [part for part in verify([path]).parts if part.part == "b"]
+    assert part.score.share == Fraction(1, 2)
+
+
 def test_whoever_is_on_the_roster_and_handed_in_nothing_counts(tmp_path: Path) -> None:
     path, made = exam(tmp_path)
     of = made.versions[0].points
