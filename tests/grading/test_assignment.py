@@ -181,6 +181,26 @@ def test_of_two_of_one_name_the_number_must_be_known(tmp_path: Path) -> None:
     assert says[0].endswith("called 'Ann Lee'; give the number.")
 
 
+@pytest.mark.parametrize("number", ["0", "000", ""])
+def test_a_number_of_zeros_is_nobodys_who_has_none(tmp_path: Path, number: str) -> None:
+    path, made = exam(tmp_path, versions=2)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("student,version\nAnn,A\nBen,B\n", encoding="utf-8")
+    right = {version.code: keys(version)["1", "a"] for version in made.versions}
+    rows = [("Ann", "4711", "1", "a", right["A"]), ("Ben", number, "1", "a", right["B"])]
+    report = graded(tmp_path, rows, Assignment(path, roster=roster))
+    assert [(each.student, each.parts[0].judged.accepted) for each in report.students] == [("Ann", True), ("Ben", True)]
+
+
+@pytest.mark.parametrize("typed", ["7", "1"])
+def test_a_number_that_several_have_is_told(tmp_path: Path, typed: str) -> None:
+    path, _ = exam(tmp_path)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("student,number\nAnn,007\nBen,07\nCid,1\nDan,1\n", encoding="utf-8")
+    (refusal,) = graded(tmp_path, [("", typed, "1", "a", "1")], Assignment(path, roster=roster)).refused
+    assert refusal.says.endswith(f"several students on the roster have the number {typed!r}; correct the roster.")
+
+
 def test_whoever_may_have_handed_in_is_not_said_to_have_handed_in_nothing(tmp_path: Path) -> None:
     path, _ = exam(tmp_path, roster=TWO)
     report = graded(tmp_path, [("Bob", "8", "1", "a", "1", "and more")], Assignment(path))  # one field too many
@@ -199,6 +219,19 @@ def test_the_roster_that_an_exam_was_printed_from_will_do(tmp_path: Path) -> Non
     assert {each.student: each.version for each in report.students} == codes
     roster.write_text("name,number\nCid,1\n", encoding="utf-8")
     with pytest.raises(FileError, match="line 2: the exam was not printed for them; add a version"):
+        Assignment(path, roster=roster)
+
+
+def test_namesakes_are_told_apart_by_numbers_whose_zeros_a_spreadsheet_lost(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, roster=(Person("Ann Lee", "007"), Person("Ann Lee", "008")))
+    right = {version.person.number: keys(version)["1", "a"] for version in made.versions}
+    roster = tmp_path / "roster.csv"
+    roster.write_text("name,number\nAnn Lee,7\nAnn Lee,8\n", encoding="utf-8")
+    rows = [("Ann Lee", "7", "1", "a", right["007"]), ("Ann Lee", "8", "1", "a", right["008"])]
+    report = graded(tmp_path, rows, Assignment(path, roster=roster))
+    assert [each.parts[0].judged.accepted for each in report.students] == [True, True]
+    roster.write_text("name,number\nAnn Lee,9\n", encoding="utf-8")
+    with pytest.raises(FileError, match=r"line 2: several students .* 'Ann Lee', and none of them has the number '9'"):
         Assignment(path, roster=roster)
 
 
