@@ -24,7 +24,7 @@ _AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from
 _MARKED = re.compile(r"'(?=[=+\-@\d.(\[])(?!.*'$)", re.DOTALL)  # and so, as our own reports do
 #: A file has no more bytes, so neither has a field: an answer that is too long is judged, and costs only itself.
 csv.field_size_limit(10**7)
-_SEPARATED = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
+_SEPARATED = re.compile(r"\s*\"?sep=([^\r\n\"])\"?[,;\t]*\r?\n", re.IGNORECASE)
 #: What joins letters in Persian, Hindi and other scripts, and is not seen itself.
 JOINERS = "\u200c\u200d"
 #: No name has more characters.

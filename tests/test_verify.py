@@ -370,6 +370,8 @@ FAULTY = [
     ("a.csv", "Ann,td.toml,a,1\n", "line 1: the column 'problem' is missing"),
     ("a.csv", "sep=;\nproblem;part\n", "line 2: the column 'answer' is missing"),
     ("a.csv", "sep=;\nproblem;answer\ntd.toml;1;2\n", "line 3: 3 fields where"),
+    ("a.csv", "sep=\r\nproblem,answer\r\n", "line 1: the column 'problem' is missing"),
+    ("a.csv", 'sep="\nproblem,answer\n', "line 1: the column 'problem' is missing"),
     ("a.csv", "problem,answer,answer\ntd.toml,1,2\n", "the column 'answer' stands twice"),
     ("a.csv", HEAD + "Ann,td.toml,a,1\nAnn,sweep.toml,a,4, 1.5\n", "line 3: 5 fields where"),
     ("a.csv", HEAD + "Ann,td.toml,1\n", "line 2: 3 fields where"),
