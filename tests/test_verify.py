@@ -323,6 +323,8 @@ def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> No
     ("name", "content"),
     [
         ("a.toml", 'name = "Ann"\n"Student ID" = 7\n"td.toml" = 1'),
+        ("a.toml", 'student = "Ann"\nname = "Exam of spring"\nnumber = "7"\n"td.toml" = 1'),
+        ("a.jsonl", '{"name": "Exam of spring", "student": "Ann", "sid": 7, "problem": "td.toml", "answer": 1}'),
         ("a.toml", 'student = "Ann"\nnumber = "7"\n[answers]\n"td.toml" = 1'),
         ("a.json", '{"Name": "Ann", "Matrikelnummer": 7, "answers": {"td.toml": 1}}'),
         ("a.jsonl", '{"Student name": "Ann", "sid": 7, "Problem ID": "td.toml", "response": 1}'),
@@ -370,6 +372,8 @@ FAULTY = [
     ("a.csv", "Ann,td.toml,a,1\n", "line 1: the column 'problem' is missing"),
     ("a.csv", "sep=;\nproblem;part\n", "line 2: the column 'answer' is missing"),
     ("a.csv", "sep=;\nproblem;answer\ntd.toml;1;2\n", "line 3: 3 fields where"),
+    ("a.csv", "sep=\r\nproblem,answer\r\n", "line 1: the column 'problem' is missing"),
+    ("a.csv", 'sep="\nproblem,answer\n', "line 1: the column 'problem' is missing"),
     ("a.csv", "problem,answer,answer\ntd.toml,1,2\n", "the column 'answer' stands twice"),
     ("a.csv", HEAD + "Ann,td.toml,a,1\nAnn,sweep.toml,a,4, 1.5\n", "line 3: 5 fields where"),
     ("a.csv", HEAD + "Ann,td.toml,1\n", "line 2: 3 fields where"),
@@ -386,6 +390,9 @@ FAULTY = [
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n{"problem": \n', "line 2, column"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n[]\n', "line 2: a line is an object"),
     ("a.jsonl", '{"problem": "td.toml"}', "line 1: the field 'answer' is missing"),
+    ("a.jsonl", '{"name": "Ann", "full name": "A", "problem": "td.toml", "answer": 1}', "the field 'student' stands"),
+    ("a.toml", 'name = "Ann"\n"Full name" = "A"\n"td.toml" = 1', "the field 'student' stands twice"),
+    ("a.csv", HEAD + "Ann,2a,b,1\n", "line 2: '2a' and the part 'b' stand there; keep one of them"),
     ("a.jsonl", '{"problem": 1.5, "answer": 1}', "'1.5' is neither a problem ID"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1, "answer": 2}', "line 1: the key 'answer' stands twice"),
     ("a.txt", "1", "must end in .toml, .json, .csv, .jsonl or .ndjson"),
@@ -466,6 +473,35 @@ def test_files_that_answers_name_are_opened_only_with_leave_and_only_beside_them
         assert code == 3
     (refusal,) = verify_with([write(folder, "a.csv", "problem,part,answer\ntd.toml,a,6.8\n")]).refused
     assert "names a problem file; --allow-files opens those that lie beside the answers." in refusal.says
+
+
+@pytest.mark.parametrize("state", ["market", "may", "decoy"])
+def test_words_that_begin_as_a_month_does_are_no_dates(folder: Path, state: str) -> None:
+    # V₁ = max(5 + 1/2 · 0, 1 + 1/2 · 0) = 5.
+    write(folder, "own.toml", f"""family = "value-iteration"
+[given]
+gamma = "1/2"
+sweeps = 1
+start = {{ {state} = 0 }}
+[given.mdp]
+transitions = [["{state}", "sell", "end", 1, 5], ["{state}", "keep", "{state}", 1, 1]]
+terminal = ["end"]
+""")  # fmt: skip
+    sheet = write(folder, "a.csv", f"problem,part,answer\nown.toml,a,{state} 5\n")
+    assert verify([sheet]).parts[0].judged.verdict == "right"
+
+
+@pytest.mark.parametrize("typed", ["3-Apr", "03. Apr", "Mar-04", "4 March", "12-Dez-2024", "2024-04-03", "1. Mai"])
+def test_dates_are_told(folder: Path, typed: str) -> None:
+    sheet = write(folder, "a.csv", f"problem,part,answer\nreturn.toml,a,{typed}\n")
+    assert "is a date" in verify([sheet]).parts[0].judged.reason
+
+
+def test_a_path_that_cannot_be_looked_at_does_not_stop_the_others(folder: Path) -> None:
+    good = write(folder, "good.toml", '["td.toml"]\na = "6.8"\n')
+    report = verify([good, folder / f"{'a' * 300}.csv"])
+    assert [part.judged.verdict for part in report.parts] == ["right"]
+    assert report.exit_code == 3
 
 
 def test_one_bad_file_does_not_stop_the_others(folder: Path) -> None:

@@ -28,7 +28,7 @@ from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
 from rldrill.print.worksheet import even_columns, options, space_of, worksheet_source
-from rldrill.problems.errors import UsageError
+from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.notations import used
 from rldrill.problems.parts import Choice, Matrix, Number, Part
 from rldrill.problems.pictures import Picture
@@ -372,6 +372,31 @@ def test_a_file_is_replaced_with_its_rights(tmp_path: Path) -> None:
     assert path.stat().st_mode & 0o777 == 0o640
 
 
+def test_a_link_stays_one_and_what_it_names_is_replaced(tmp_path: Path) -> None:
+    real, link, dangling = tmp_path / "there" / "real.json", tmp_path / "link.json", tmp_path / "dangling.json"
+    write_bytes_atomically(real, b"old")
+    link.symlink_to("there/real.json")
+    dangling.symlink_to(tmp_path / "there" / "none.json")
+    for path in (link, dangling):
+        write_bytes_atomically(path, b"new")
+        assert path.is_symlink()
+        assert path.read_bytes() == b"new"
+    assert real.read_bytes() == b"new"
+    assert {path.name for path in (tmp_path / "there").iterdir()} == {"real.json", "none.json"}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such pipes")
+def test_a_pipe_stays_one_and_takes_what_is_written(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reading = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    write_bytes_atomically(pipe, b"new")
+    assert os.read(reading, 9) == b"new"
+    os.close(reading)
+    assert pipe.is_fifo()
+    assert list(tmp_path.iterdir()) == [pipe]
+
+
 # The command
 
 
@@ -433,6 +458,49 @@ def test_a_second_run_overwrites_nothing_unless_it_is_forced_and_leaves_nothing_
     run("return", "-n", 1, "--seed", 5, "--versions", 2, "--force", *output)
     assert set(bytes_in(tmp_path)) == {"a-A.pdf", "a-A-key.pdf", "a-B.pdf", "a-B-key.pdf"}
     assert bytes_in(tmp_path)["a-A.pdf"] != before["a-A.pdf"]
+
+
+def test_an_exam_stays_until_the_next_one_is_drawn(tmp_path: Path) -> None:
+    blueprint, output = tmp_path / "exam.toml", ("-o", tmp_path / "a.pdf")
+    blueprint.write_text('points = 5\n[[problems]]\nfamily = "return"\nlevel = 1\n')
+    run(blueprint, *output)
+    before = {path.name: path.read_bytes() for path in tmp_path.glob("a*")}
+    blueprint.write_text(blueprint.read_text().replace("5", "1"))  # for two parts
+    with pytest.raises(FileError, match="raise the total"):
+        run(blueprint, *output, "--force")
+    assert {path.name: path.read_bytes() for path in tmp_path.glob("a*")} == before
+
+
+def test_keys_that_are_printed_elsewhere_are_those_of_the_exam_that_is_named(tmp_path: Path) -> None:
+    for seed, name in enumerate(("one", "two")):
+        run("return", "-n", 1, "--seed", seed, "-o", tmp_path / f"{name}.pdf")
+    printed = bytes_in(tmp_path)
+    one, two = (("--from", tmp_path / f"{name}.json", "--key", "-o", tmp_path / "keys.pdf") for name in ("one", "two"))
+    assert run(*one)[0] == ["keys-key.pdf"]
+    for again in (one, two):  # nothing tells whose the keys are that lie there
+        assert "keys-key.pdf" in refused(*again)
+    assert bytes_in(tmp_path)["keys-key.pdf"] == printed["one-key.pdf"]
+    assert run(*two, "--force")[0] == ["keys-key.pdf"]
+    assert bytes_in(tmp_path) == {**printed, "keys-key.pdf": printed["two-key.pdf"]}
+
+
+def test_keys_that_are_forced_on_another_exam_leave_its_manifest(tmp_path: Path) -> None:
+    for seed, name in enumerate(("one", "two")):
+        run("return", "-n", 1, "--seed", seed, "-o", tmp_path / f"{name}.pdf")
+    manifest = (tmp_path / "one.json").read_bytes()
+    run("--from", tmp_path / "two.json", "--key", "-o", tmp_path / "one.pdf", "--force")
+    assert (tmp_path / "one.json").read_bytes() == manifest
+    assert (tmp_path / "one.pdf").exists()
+
+
+def test_no_export_takes_the_place_of_a_manifest(tmp_path: Path) -> None:
+    run("return", "-n", 1, "--seed", 4, "-o", tmp_path / "a.pdf")
+    manifest = (tmp_path / "a.json").read_bytes()
+    for made in (["--from", tmp_path / "a.json", "--format", "json"], ["td-zero", "-o", tmp_path / "a.json"]):
+        assert "a.json is the manifest of an exam, without which it" in refused(*made, "--force")
+    assert (tmp_path / "a.json").read_bytes() == manifest
+    assert run("--from", tmp_path / "a.json", "-o", tmp_path / "b.json")[0] == ["b.json"]
+    assert run("--from", tmp_path / "a.json", "-o", tmp_path / "b.json", "--force")[0] == ["b.json"]
 
 
 def test_a_run_that_was_ended_goes_on(tmp_path: Path) -> None:
@@ -512,6 +580,20 @@ def test_a_problem_that_is_named_twice_is_printed_once(tmp_path: Path) -> None:
     run("td-zero/1/62590", "td-zero/1/62590", "-o", tmp_path / "x.json")
     (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
     assert len(version["problems"]) == 1
+
+
+def test_a_family_at_a_level_is_a_problem_as_often_as_it_is_named(tmp_path: Path) -> None:
+    run("return/1", "return/1", "return/2", "-o", tmp_path / "x.json")
+    (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
+    assert [problem["level"] for problem in version["problems"]] == [1, 1, 2]
+
+
+@pytest.mark.parametrize("names", [["td-zero/1/7", "return"], ["td-zero/1/7", "return/1"]])
+def test_no_more_problems_are_named_than_are_wanted(tmp_path: Path, names: list[str]) -> None:
+    assert "2 problems are named, and -n asks for 1" in refused(*names, "-n", 1, "-o", tmp_path / "x.json")
+    run(*names, "-n", 2, "-o", tmp_path / "x.json")
+    (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
+    assert len(version["problems"]) == 2
 
 
 @pytest.mark.parametrize(("wanted", "said"), [(24, False), (300, True)])  # eight short problems take 300 nowhere

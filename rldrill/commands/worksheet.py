@@ -120,7 +120,7 @@ def command(
             return
         written = _reprinted(source, output, changes, only_keys=key, force=force)
     else:
-        blueprint, stem, planned = _blueprint(list(dict.fromkeys(names or ())), count, minutes, level)
+        blueprint, stem, planned = _blueprint(names or [], count, minutes, level)
         blueprint = blueprint.but(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
         )
@@ -222,11 +222,17 @@ def _blueprint(
     paths = [name for name in names if Path(name).suffix.lower() in (".toml", ".json")]
     plans = [name for name in paths if name.lower().endswith(".toml") and is_blueprint(read_data(name))]
     if plans:
-        if len(names) > 1 or count or level:
+        if len({*names}) > 1 or count or level:
             raise UsageError(f"{plans[0]} is a blueprint, which names the problems itself; leave the other names out.")
         return read_blueprint(plans[0]).but(minutes=minutes), Path(plans[0]).stem, True
-    entries = {name: entry for name in names if (entry := _entry(name))}
-    fixed, rest = [*entries.values()], tuple(name for name in names if name not in entries)
+    entries = [(name, _entry(name)) for name in names]
+    rest = tuple(name for name, entry in entries if entry is None)
+    fixed: list[Entry] = []
+    for _, entry in entries:
+        if entry is not None and not (entry.is_fixed and entry in fixed):
+            fixed.append(entry)
+    if count is not None and count < (named := len(fixed) + bool(rest)):
+        raise UsageError(f"{named} problems are named, and -n asks for {count}; raise it, or leave names out.")
     if rest or not fixed:
         wanted = None if minutes and count is None else max(1, (count or _PROBLEMS) - len(fixed))
         fixed.append(Entry(topic=rest, count=wanted, level=level))
@@ -253,7 +259,7 @@ def _printed(
     from rldrill.exam.planning import version_codes
     from rldrill.exam.roster import read_roster
     from rldrill.exam.selection import fresh_seed
-    from rldrill.print.exam_files import Files, check_output, make_room, write
+    from rldrill.print.exam_files import Files, check_output, earlier, make_room, write
     from rldrill.print.fonts import needs_system_fonts
     from rldrill.print.paper import typst_version
 
@@ -267,14 +273,14 @@ def _printed(
     seed = fresh_seed() if blueprint.seed is None else blueprint.seed
     typer.echo(f"seed {seed}", err=True)
     files = Files(output, version_codes(number, seed, secret), blueprint.layout, bool(people), only_keys)
-    if fresh:  # what is there is of another seed: that is told before any work is done
-        make_room(files, force=force)
+    if fresh and not force:  # what is there is of another seed: that is told before any work is done
+        make_room(earlier(files), force=False)
     with _progress("Drawing", number) as advance:
         exam = drawn(blueprint.but(seed=seed), typst_version(), roster=people, secret=secret, advance=advance)
     _tell(number, exam.fairness, blueprint.minutes)
     data = exam.manifest
     if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
-        make_room(files, force=force)
+        make_room(earlier(files), force=force)
     return _counted(files, number, lambda advance: write(files, data, advance))
 
 
@@ -287,7 +293,7 @@ def _reprinted(
 
     from rldrill.exam.manifest import LARGEST, codes, read_exam, typst_of, written
     from rldrill.files import read_text
-    from rldrill.print.exam_files import Files, check_output, make_room, print_from, write
+    from rldrill.print.exam_files import Files, check_output, earlier, make_room, print_from, write
     from rldrill.print.paper import typst_version
     from rldrill.problems.errors import UsageError
 
@@ -304,20 +310,19 @@ def _reprinted(
     beside = files.manifest.exists() and files.manifest.samefile(source)
     if beside and not force and layout != exam.layout:
         raise UsageError(f"{source} prints otherwise; choose another name with -o, or --force to print its PDFs anew.")
-    if beside and force:
-        for path in files.pdfs():
-            path.unlink(missing_ok=True)
     if beside or only_keys:
+        if force or not beside:  # whose keys are there that lie elsewhere, nothing tells
+            make_room(files.printed(), force=force)
         return _counted(files, number, lambda advance: print_from(source, files, advance))
-    make_room(files, force=force)
     how = {"layout": asdict(layout), "typst": now}
     data = written(json.loads(read_text(source, (".json",), LARGEST)) | how)
+    make_room(earlier(files), force=force)
     return _counted(files, number, lambda advance: write(files, data, advance))
 
 
 def _counted(files: "Files", number: int, run: Callable[[Callable[[], None]], Iterator[Path]]) -> list[Path]:
     """What was written, and a word on what was there already."""
-    there, every = sum(path.exists() for path in files.pdfs()), len(files.pdfs())
+    there, every = len(files.printed()), len(files.pdfs())
     if there:
         rest = "the rest is written" if there < every else "--force writes them anew"
         typer.echo(f"rldrill: {there} of {every} PDFs are there already; {rest}", err=True)

@@ -1,6 +1,6 @@
 """An assignment: which problems a student was given, and which answers are to none of them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,6 +28,42 @@ class Sitting(Struct, frozen=True):
     why: str = ""
 
 
+class _People:
+    """Who is meant by a number and a name."""
+
+    def __init__(self, people: Iterable[Sitting] = ()) -> None:
+        self._called: dict[str, list[Sitting]] = {}
+        self._numbered: dict[str, list[Sitting]] = {}
+        for each in people:
+            self.put(each)
+
+    def put(self, sitting: Sitting) -> None:
+        """Add somebody."""
+        for key in {folded(sitting.number), folded(sitting.student)} - {""}:
+            self._called.setdefault(key, []).append(sitting)
+        if sitting.number:
+            self._numbered.setdefault(_without_zeros(sitting.number), []).append(sitting)
+
+    def meant(self, number: str, name: str) -> Sitting | None:
+        """The one who has the number, or else the name; one without a version where several have it, None if nobody."""
+        correct = f", and none of them has the number {number!r}; correct it." if number else "; give the number."
+        for found, what in (
+            (self._called.get(folded(number)), f"have the number {number!r}; correct the roster."),
+            (self._numbered.get(_without_zeros(number)), f"have the number {number!r}; correct the roster."),
+            (self._called.get(folded(name)), f"are called {name!r}{correct}"),
+        ):
+            if found:
+                several = Sitting(name, number, None, f"several students on the roster {what}")
+                return several if len(found) > 1 else found[0]
+        return None
+
+
+def _without_zeros(number: str) -> str:
+    """A number as a spreadsheet leaves it, which drops the zeros before it."""
+    number = folded(number)
+    return number.lstrip("0") or number[-1:]
+
+
 class Assignment:
     """An exam as it is graded: exactly its problems, all of them.
 
@@ -50,8 +86,7 @@ class Assignment:
         self._ids_printed = self.exam.layout.ids
         self.versions = {each.code: each for each in printed(manifest)}
         self._all: Printed | None = None
-        self._roster: dict[str, Sitting] = {}
-        self._numbers: dict[str, Sitting] = {}
+        self._people = _People()
         self.people: list[Sitting] = []
         self._known = f"the versions of {shown(manifest)} are {', '.join(self.versions)}"
         if version is not None:
@@ -73,12 +108,7 @@ class Assignment:
 
     def sitting(self, entry: Entry) -> Sitting:
         """The exam of whoever typed an answer."""
-        number = folded(entry.number)
-        known = self._roster.get(number) or self._numbers.get(number.lstrip("0")) if number else None
-        known = known or self._roster.get(folded(entry.student))
-        if known is not None and known.version is None and number:
-            why = f"{known.why.partition(';')[0]}, and none of them has the number {entry.number!r}; correct it."
-            return Sitting(entry.student, entry.number, None, why)
+        known = self._people.meant(entry.number, entry.student)
         if known is not None:
             return known
         if self._all is not None:
@@ -127,13 +157,7 @@ class Assignment:
 
     def _put(self, sitting: Sitting) -> None:
         self.people.append(sitting)
-        self._numbers.setdefault(folded(sitting.number).lstrip("0"), sitting)  # a spreadsheet drops the zeros before it
-        for name in filter(None, (sitting.number, sitting.student)):
-            key = folded(name)
-            if self._roster.setdefault(key, sitting) is not sitting:
-                self._roster[key] = Sitting(
-                    sitting.student, "", None, f"several students on the roster are called {name!r}; give the number."
-                )
+        self._people.put(sitting)
 
     def _read(self, path: Path, people: Sequence[Sitting]) -> None:
         """A roster: columns for the name (or first and last name) or the number, and for the version, if it differs.
@@ -142,15 +166,16 @@ class Assignment:
         """
         text = read_text(path, (".csv",))
         needed = ("version",) if self._all is None and not people else ()
-        printed = {folded(name): each for each in people for name in (each.student, each.number) if name}
+        printed = _People(people)
         for line, row in table(text, path, ("student", "number", "version"), needed)[2]:
             if "says" in row:
                 raise FileError(row["says"])
             code = row.get("version", "").upper() if self._all is None else self._all.code
             if people and "version" not in row:
-                known = printed.get(folded(row.get("number", ""))) or printed.get(folded(row.get("student", "")))
+                known = printed.meant(row.get("number", ""), row.get("student", ""))
                 if known is None or known.version is None:
-                    raise FileError(f"{shown(path)}, line {line}: the exam was not printed for them; add a version.")
+                    why = "the exam was not printed for them; add a version." if known is None else known.why
+                    raise FileError(f"{shown(path)}, line {line}: {why}")
                 code = known.version.code
             if code not in self.versions:
                 raise FileError(f"{shown(path)}, line {line}: there is no version {code[:20]!r}; {self._known}.")

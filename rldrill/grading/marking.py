@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from time import process_time
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -36,16 +36,22 @@ SEARCH, ALL_SEARCHES = 1.0, 300.0
 _KEPT = 50_000
 #: So many problems that somebody names are kept, solved.
 _PROBLEMS = 200
-#: Entries that are the same in so many other draws are the same in every draw.
-_OTHER_DRAWS = 4
+#: Entries that are the same in so many other draws are the same in every draw: of what varies, an entry may be so in
+#: every second draw.
+_OTHER_DRAWS = 16
 _COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
-_MONTH = "(?:jan|feb|m[aä]r|apr|ma[iy]|jun|jul|aug|sep|o[ck]t|nov|de[cz])[a-z]*"
+_MONTH = (
+    "(?:jan(?:uary?)?|feb(?:ruary?)?|m[aä]r(?:ch|z)?|apr(?:il)?|ma[iy]|jun[ei]?|jul[iy]?|aug(?:ust)?|sep(?:t|tember)?|"
+    "o[ck]t(?:ober)?|nov(?:ember)?|de[cz](?:ember)?)"
+)
 #: What a spreadsheet makes of 3/4: 3-Apr, 4-Mar, Apr-03, 03. Apr, 2024-04-03, 03.04.2024, 3/4/2024.
 _DATE = re.compile(
     rf"\d{{1,2}}(?:\. ?|[- ]){_MONTH}(?:[- ]\d{{2,4}})?|{_MONTH}[- ]\d{{1,2}}|"
     r"(?:19|20)\d\d-\d\d-\d\d(?:[ T]00:00(?::00)?)?|\d{1,2}\.\d{1,2}\.(?:19|20)\d\d|\d{1,2}/\d{1,2}/(?:19|20)\d\d",
     re.IGNORECASE,
 )
+#: A word in it, such as the name of a month.
+_WORD = re.compile(r"[^\W\d_]{3}")
 
 
 class Rules(Struct, frozen=True):
@@ -218,7 +224,7 @@ class Judging:
             text = "" if entry is None else self.pointed(part, entry.text, commas=entry.commas)
             if entry is None or not text.strip():
                 result.append((part.label, entry, self._missing(part)))
-            elif entry.is_cell and _DATE.fullmatch(text.strip()):
+            elif entry.is_cell and self._is_date(part, text.strip()):
                 result.append((part.label, entry, self._date(part, text)))
             else:
                 verdict, judged = self._answer(part, text, given)
@@ -301,10 +307,12 @@ class Judging:
         if identity is None:
             return frozenset()
         if part.label not in self._same:
-            cells = answer_kind(part.kind).cells(self.exercise.solution.answers[part.label])
-            same = set(cells)
+            same = answer_kind(part.kind).cells(self.exercise.solution.answers[part.label])
             for seed in range(_OTHER_DRAWS):
-                same &= _agreeing(cells, part.label, draw(identity.family, identity.level, seed))
+                other = _drawn(identity.family, identity.level, seed).get(part.label, {})
+                same = {name: content for name, content in same.items() if name in other and other[name] == content}
+                if not same:
+                    break
             self._same[part.label] = frozenset(same)
         return self._same[part.label]
 
@@ -320,6 +328,10 @@ class Judging:
         if key not in self._judged:
             self._judged[key] = missing(part.points, self._key(part))
         return self._judged[key]
+
+    def _is_date(self, part: Part, text: str) -> bool:
+        """Whether it is a date; a month may also be the name of a state, and then it can be read."""
+        return bool(_DATE.fullmatch(text)) and not (_WORD.search(text) and self._readable(part, text))
 
     def _date(self, part: Part, text: str) -> Judged:
         says = (
@@ -355,9 +367,9 @@ class Judging:
         return True
 
 
-def _agreeing(cells: Mapping[str, Any], label: str, other: Exercise) -> set[str]:
-    part = next((part for part in other.parts if part.label == label), None)
-    if part is None:
-        return set()
-    answers = answer_kind(part.kind).cells(other.solution.answers[label])
-    return {name for name, content in cells.items() if name in answers and answers[name] == content}
+@lru_cache(maxsize=20 * _OTHER_DRAWS)
+def _drawn(family: str, level: int, seed: int) -> dict[str, dict[str, Any]]:
+    """The entries of the right answer to every part of a draw."""
+    exercise = draw(family, level, seed)
+    answers = exercise.solution.answers
+    return {part.label: answer_kind(part.kind).cells(answers[part.label]) for part in exercise.parts}

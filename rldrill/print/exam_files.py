@@ -1,7 +1,7 @@
 """The files of an exam: a worksheet and a key for every version, the manifest, and all of a roster in one."""
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from msgspec import Struct
@@ -62,6 +62,10 @@ class Files(Struct, frozen=True):
         found = [path for code in self.codes for path in (self.worksheet(code), self.key(code)) if path is not None]
         return found if self.bundle is None else [*found, self.bundle]
 
+    def printed(self) -> list[Path]:
+        """Those that are there."""
+        return [path for path in self.pdfs() if path.exists()]
+
 
 def check_output(output: Path) -> None:
     """Refuse a path that a worksheet cannot be written to, before any work is done.
@@ -91,14 +95,13 @@ def earlier(files: Files) -> list[Path]:
     return [path for path in dict.fromkeys(names) if path.exists()]
 
 
-def make_room(files: Files, *, force: bool) -> None:
+def make_room(found: Sequence[Path], *, force: bool) -> None:
     """Take away what an earlier run has left, if that is wanted.
 
     Raises:
         UsageError: something is there, and it is not to be replaced.
         OSError: a file cannot be removed.
     """
-    found = earlier(files)
     if found and not force:
         told = ", ".join(path.name for path in found[:_TOLD])
         more = f" and {len(found) - _TOLD} more" if len(found) > _TOLD else ""

@@ -85,6 +85,21 @@ def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, ma
     assert student(report, "Ben").score.points == 3
 
 
+def test_a_part_that_shall_not_count_decides_nothing(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    data = json.loads(path.read_text())
+    (part,) = data["versions"][0]["problems"][0]["parts"]
+    part["points"] = 0
+    path.write_text(json.dumps(data))
+    rows = [("Ann", "", *place, text) for place, text in keys(made.versions[0]).items()]
+    for first in ([("Ann", "", "1", "a", "no")], []):
+        report = graded(tmp_path, [*first, *rows[1:]], Assignment(path))
+        assert report.exit_code == 0
+        assert report.students[0].score.share == 1
+        assert "yes" in tables.totals(report)
+    assert graded(tmp_path, [rows[0]], Assignment(path)).exit_code == 1
+
+
 def test_an_entry_that_is_left_out_costs_what_a_wrong_one_costs(tmp_path: Path) -> None:
     blueprint = Blueprint(problems=(Asked(id="td-zero/2/18", partial=("entries", "all")),), seed=1, decimal_mark=",")
     (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
@@ -181,6 +196,26 @@ def test_of_two_of_one_name_the_number_must_be_known(tmp_path: Path) -> None:
     assert says[0].endswith("called 'Ann Lee'; give the number.")
 
 
+@pytest.mark.parametrize("number", ["0", "000", ""])
+def test_a_number_of_zeros_is_nobodys_who_has_none(tmp_path: Path, number: str) -> None:
+    path, made = exam(tmp_path, versions=2)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("student,version\nAnn,A\nBen,B\n", encoding="utf-8")
+    right = {version.code: keys(version)["1", "a"] for version in made.versions}
+    rows = [("Ann", "4711", "1", "a", right["A"]), ("Ben", number, "1", "a", right["B"])]
+    report = graded(tmp_path, rows, Assignment(path, roster=roster))
+    assert [(each.student, each.parts[0].judged.accepted) for each in report.students] == [("Ann", True), ("Ben", True)]
+
+
+@pytest.mark.parametrize("typed", ["7", "1"])
+def test_a_number_that_several_have_is_told(tmp_path: Path, typed: str) -> None:
+    path, _ = exam(tmp_path)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("student,number\nAnn,007\nBen,07\nCid,1\nDan,1\n", encoding="utf-8")
+    (refusal,) = graded(tmp_path, [("", typed, "1", "a", "1")], Assignment(path, roster=roster)).refused
+    assert refusal.says.endswith(f"several students on the roster have the number {typed!r}; correct the roster.")
+
+
 def test_whoever_may_have_handed_in_is_not_said_to_have_handed_in_nothing(tmp_path: Path) -> None:
     path, _ = exam(tmp_path, roster=TWO)
     report = graded(tmp_path, [("Bob", "8", "1", "a", "1", "and more")], Assignment(path))  # one field too many
@@ -199,6 +234,19 @@ def test_the_roster_that_an_exam_was_printed_from_will_do(tmp_path: Path) -> Non
     assert {each.student: each.version for each in report.students} == codes
     roster.write_text("name,number\nCid,1\n", encoding="utf-8")
     with pytest.raises(FileError, match="line 2: the exam was not printed for them; add a version"):
+        Assignment(path, roster=roster)
+
+
+def test_namesakes_are_told_apart_by_numbers_whose_zeros_a_spreadsheet_lost(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, roster=(Person("Ann Lee", "007"), Person("Ann Lee", "008")))
+    right = {version.person.number: keys(version)["1", "a"] for version in made.versions}
+    roster = tmp_path / "roster.csv"
+    roster.write_text("name,number\nAnn Lee,7\nAnn Lee,8\n", encoding="utf-8")
+    rows = [("Ann Lee", "7", "1", "a", right["007"]), ("Ann Lee", "8", "1", "a", right["008"])]
+    report = graded(tmp_path, rows, Assignment(path, roster=roster))
+    assert [each.parts[0].judged.accepted for each in report.students] == [True, True]
+    roster.write_text("name,number\nAnn Lee,9\n", encoding="utf-8")
+    with pytest.raises(FileError, match=r"line 2: several students .* 'Ann Lee', and none of them has the number '9'"):
         Assignment(path, roster=roster)
 
 
@@ -293,6 +341,16 @@ def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, an
     rules = Settings(rules=Rules(partial="all"))
     (part,) = [part for part in verify([path], rules).parts if part.part == "b"]
     assert part.score.points == (part.score.of if share == 1 else 0)
+
+
+@pytest.mark.parametrize(("problem", "answer"), [("kalman-filter/1/5", "9, 4"), ("kalman-filter/1/7", "9, 3")])
+def test_an_entry_that_some_draws_have_alike_counts(tmp_path: Path, problem: str, answer: str) -> None:
+    # (b) asks for the mean and the variance behind the measurement, Σ̄ Q / (Σ̄ + Q) with Σ̄ = Σ₀ + R: of 2 + 4 and 12 it
+    # is 6 · 12 / 18 = 4, of 3 + 1 and 12 it is 4 · 12 / 16 = 3. The draws of the seeds 0 to 3 have 4, too.
+    path = tmp_path / "answers.csv"
+    path.write_text(f'{HEAD}Ann,,{problem},b,"{answer}"\n')
+    (part,) = [part for part in verify([path]).parts if part.part == "b"]
+    assert part.score.share == Fraction(1, 2)
 
 
 def test_whoever_is_on_the_roster_and_handed_in_nothing_counts(tmp_path: Path) -> None:
@@ -478,7 +536,10 @@ def test_a_file_that_is_named_twice_is_read_once(tmp_path: Path) -> None:
     path, made = exam(tmp_path)
     answers = tmp_path / "a.csv"
     answers.write_text(f"{HEAD}Ann,,1,a,{keys(made.versions[0])['1', 'a']}\n", encoding="utf-8")
+    (tmp_path / "b.csv").symlink_to(answers)
     for settings in (Settings(), Settings(assignment=Assignment(path))):
-        report = verify([answers, answers], settings)
+        report = verify(
+            [answers, answers, tmp_path / "b.csv", tmp_path / "." / ".." / tmp_path.name / "a.csv"], settings
+        )
         assert [each.remark for each in report.students] == ([""] if settings.assignment else [])
         assert len(report.refused) == (0 if settings.assignment else 1)  # problem 1 of which exam?
