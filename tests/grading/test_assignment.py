@@ -517,16 +517,13 @@ def test_answers_that_leave_something_open_earn_nothing(tmp_path: Path) -> None:
 
 def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
     # linearise-affine/1/6 (b) is [3/4 −1; 0 1], see above; its last row is the same in every draw.
-    asked = (
-        Asked(id="linearise-affine/1/6", partial="entries"),
-        Asked(id="linearise-affine/1/6", partial=("entries", "all", "entries")),
-        Asked(id="linearise-affine/1/6"),
-    )
     path = tmp_path / "exam.json"
-    path.write_bytes(written(manifest(plan(Blueprint(problems=asked, seed=7)))))
-    rows = [("Ann", "", number, "b", "3/4, 2; 0, 1") for number in "123"]
-    (ann,) = graded(tmp_path, rows, Assignment(path)).students
-    shares = [part.score.share for part in ann.parts if part.part == "b"]
+    shares = []
+    for partial in ("entries", ("entries", "all", "entries"), None):
+        asked = Asked(id="linearise-affine/1/6", partial=partial)
+        path.write_bytes(written(manifest(plan(Blueprint(problems=(asked,), seed=7)))))
+        (ann,) = graded(tmp_path, [("Ann", "", "1", "b", "3/4, 2; 0, 1")], Assignment(path)).students
+        shares += [part.score.share for part in ann.parts if part.part == "b"]
     assert shares == [Fraction(1, 2), 0, 0]
     with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
         plan(Blueprint(problems=(Asked(id="linearise-affine/1/6", partial=("all",)),), seed=7))
