@@ -37,6 +37,9 @@ AT_THE_PROMPT = 0.15
 _SHOWN = 0.05
 #: What is close to the key is wrong where it is so sure that something likely was done, and no slip of arithmetic.
 _SURE = 0.6
+#: A verdict depends on no clock: in a working of more applications, twice the most that are drawn, a close answer is
+#: taken for close, since all that may be missing is not looked for in a time that anybody waits.
+_LARGEST = 46
 #: What is not written in a step: one that was left out or taken twice, a minimum, a quantity that was not asked for.
 _NOT_WRITTEN = ("kept", "repeated", "min-for-max", "smallest", "another-quantity")
 #: A decimal of more places than this is no rounded one.
@@ -196,7 +199,8 @@ class Diagnosing:
 
     def unmasked(self, label: str, text: str, verdict: Verdict, settled: Mapping[str, Any] | None = None) -> Verdict:
         """The verdict itself; but what is close to the key by accident, since something is missing, is wrong."""
-        if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
+        large = len(self.solution.work.values) > _LARGEST
+        if verdict.outcome is not Outcome.CLOSE or large or self._rounded(label, text):
             return verdict
         self.finish()
         clock = Clock()  # a verdict depends on none
