@@ -1,21 +1,32 @@
 """Wrong answers worked out by hand with one error, and what is said of them."""
 
+from typing import Any
+
 import pytest
 
 import rldrill
 from rldrill.solutions.answers.judging import Outcome
 
+RUN = {
+    "trajectory": {"states": ["hot", "hot", "smoking", "end"], "rewards": [8, -6, 4], "terminal": ["end"]},
+    "values": {"hot": -4, "smoking": -2}, "alpha": "1/5", "gamma": "1/2", "td_errors": True,
+}  # fmt: skip
+VISITS = {
+    "values": {"start": -3, "edge": 2}, "counts": {"start": 4, "edge": 3},
+    "visits": [["edge", 5], ["start", 9], ["start", 12], ["edge", -3]],
+}  # fmt: skip
 SAID = [
     # δ = γ(r + V(s′) − V(s)): ½(8 − 4 + 4) = 4, V(hot) = −4 + 4/5; ½(−6 − 2 + 16/5); ½(4 + 0 + 2), V(smoking) being −2.
-    ("td-zero/2/234", "a", "4, -12/5, 3", "a bracket is set in the wrong place in rₜ₊₁ + γV(sₜ₊₁) − V(sₜ) every time"),
+    ("td-zero", RUN, "4, -12/5, 3", "a bracket is set in the wrong place in rₜ₊₁ + γV(sₜ₊₁) − V(sₜ) every time"),
     # The first visit of each state alone: edge 2 + (5 − 2)/4, start −3 + (9 + 3)/5; both are visited twice.
-    ("sample-average/2/2", "a", "start: -3/5, edge: 11/4", "the last round of updates is left out"),
+    ("sample-average", VISITS, "start: -3/5, edge: 11/4", "the last round of updates is left out"),
 ]
 
 
-@pytest.mark.parametrize(("problem", "part", "typed", "said"), SAID)
-def test_what_is_said(problem: str, part: str, typed: str, said: str) -> None:
-    assert rldrill.load(problem).diagnose(typed, part).sentence == f"It looks as if {said}."
+@pytest.mark.parametrize(("family", "given", "typed", "said"), SAID)
+def test_what_is_said(family: str, given: dict[str, Any], typed: str, said: str) -> None:
+    exercise = rldrill.read({"family": family, "given": given})
+    assert exercise.diagnose(typed, "a").sentence == f"It looks as if {said}."
 
 
 def test_in_a_large_problem_what_is_close_is_taken_for_close_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
