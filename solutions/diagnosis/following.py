@@ -30,6 +30,10 @@ from rldrill.solutions.vector import Vector
 
 #: Signs between the sides of a line.
 _SIDES = re.compile(r"=|←|≈|:(?!\d)|⇒|→")
+#: What begins with a number, whatever sign or bracket it has, is no name.
+_NUMERIC = re.compile(r"[-+−(√\s]*[\d.]")
+#: The time or number of an update, which is told before it: t = 2.
+_WHEN = re.compile(r"\s*[^\W\d_](?:_?\w)?\s*=\s*\d+\s*:(?=\s)")
 _WORDS = {"gamma": "γ", "alpha": "α", "delta": "δ", "lambda": "λ", "epsilon": "ε", "theta": "θ", "pi": "π", "rho": "ρ"}
 
 
@@ -98,11 +102,11 @@ class _Follower:
 
     def _read(self, text: str) -> tuple[str, list[Entries]]:
         """The name before the first sign, and the sides that are numbers, vectors or matrices."""
-        pieces = [piece.strip() for piece in _SIDES.split(text)]
+        pieces = [piece.strip() for piece in _SIDES.split(_WHEN.sub("", text))]
         sides = []
         label = ""
         for place, piece in enumerate(pieces):
-            if place == 0 and len(pieces) > 1 and not piece[:1].isdigit():
+            if place == 0 and len(pieces) > 1 and not _NUMERIC.match(piece):
                 label = piece
                 continue
             if (entries := self._entries(piece)) is not None:

@@ -31,6 +31,7 @@ def run() -> rldrill.Exercise:
         ["V(cave) = 8 + 1/2*(8 + 1/2*8 - 8) = 10", "V(floor) = 5", "V(cave) = 17/4"],
         ["10", "5", "4.25"],
         ["V(cave) = 17/4"],
+        ["t = 0: V(cave) ← 8 + 1/2*(8 + 1/2*8 - 8) = 10", "k=1: V(floor) ← -3 + 8 = 5", "(8 + 1)/2 - 1/4 = 17/4"],
         ["δ = 4", "V(cave) ← 8 + 1/2*4 = 10", "δ = -6", "V(floor) = 8 - 3 = 5"],
     ],
 )
@@ -55,6 +56,11 @@ def test_the_first_line_that_departs_is_named_and_the_rest_follows(run: rldrill.
 def test_a_line_without_a_name_is_held_against_the_steps_that_are_left(run: rldrill.Exercise, value: str) -> None:
     followed = run.follow(["10", value])
     assert [line.step for line in followed.lines] == [0, 1]
+
+
+@pytest.mark.parametrize("line", ["-2 + 13 = 10", "−2 + 13 = 10", "(1 + 10) = 10", "√4 + 9 = 10", ".5 + 11/2 = 10"])
+def test_a_line_that_begins_with_a_sign_is_worked_out_too(run: rldrill.Exercise, line: str) -> None:
+    assert [told.standing for told in run.follow([line]).lines] == ["miscalculated"]
 
 
 def test_a_slip_of_arithmetic_is_told_from_a_wrong_formula(run: rldrill.Exercise) -> None:
