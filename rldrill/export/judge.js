@@ -389,7 +389,7 @@ const Judge = (() => {
     if (!alike(ours.top, theirs.top) || !alike(ours.bottom, theirs.bottom)) {
       const one = Ratio.of(whole(1)).bottom;
       [ours, theirs] = [new Ratio(product(ours.top, theirs.bottom), one), new Ratio(product(theirs.top, ours.bottom), one)];
-      if (!alike(ours.top, theirs.top)) return false;
+      if (!alike(ours.top, theirs.top)) return sampled((point) => near(value(point), key(point)));
     }
     return [...theirs.bottom.keys()].some((letters) => ["top", "bottom"].every((part) => [...theirs[part]].every(([place, number]) =>
       near(divide(ours[part].get(place), ours.bottom.get(letters)), divide(number, theirs.bottom.get(letters))))));

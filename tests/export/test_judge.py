@@ -142,6 +142,9 @@ def test_the_bound_itself_is_right_and_what_lies_beyond_is_not() -> None:
         ("2*gamma + x", ["gamma", "x"], "2.0γ + x", "right"), ("2*gamma + x", ["gamma", "x"], "2.0x + γ", "wrong"),
         ("2*gamma + x", ["gamma", "x"], "3.0x", "wrong"), ("2*gamma + x", ["gamma", "x"], "2x + γ", "wrong"),
         ("x*gamma + x/3", ["gamma", "x"], "x(γ + 0.333)", "right"),
+        # Not in lowest terms, as nobody takes the trouble
+        ("(2 - gamma)/(3*(1 - gamma)^2)", ["gamma"], "0.33333/(1-γ) + 0.33333/(1-γ)^2", "right"),
+        ("(2 - gamma)/(3*(1 - gamma)^2)", ["gamma"], "0.34/(1-γ) + 0.33333/(1-γ)^2", "wrong"),
         # No quotient of polynomials: compared at points
         ("exp(gamma)/3", ["gamma"], "0.33333 e^γ", "right"), ("exp(gamma)/3", ["gamma"], "0.34 e^γ", "wrong"),
         ("sqrt(x)/3", ["x"], "0.33333 sqrt(x)", "right"), ("sqrt(x)/3", ["x"], "0.34 sqrt(x)", "wrong"),
