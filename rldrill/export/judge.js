@@ -22,7 +22,8 @@ const Judge = (() => {
     const [n, d] = value;
     if (abs(n) < SIZE && d < SIZE) return Number(n) / Number(d);
     const whole_ = n / d;
-    return Number(whole_) + Number(((n - whole_ * d) * SIZE) / d) / Number(SIZE);
+    const rough = Number(whole_) + Number(((n - whole_ * d) * SIZE) / d) / Number(SIZE);
+    return Number.isFinite(rough) ? rough : refuse("A number in it is too large.");
   };
   const finite = (value) => (isExact(value) || Number.isFinite(value) ? value : refuse("A part of it is no real number."));
   const either = (exact, rough, ofRatios) => (a, b) => (a instanceof Ratio || b instanceof Ratio
@@ -326,7 +327,7 @@ const Judge = (() => {
     const readings = forms.map((form) => {
       const parser = new Parser(comma ? pointed(form) : form, parameters);
       const value = parser.all();
-      POINTS.slice(0, parameters.length ? 2 : 1).forEach((_, number) => value(pointOf(number)));
+      POINTS.slice(0, parameters.length ? 2 : 1).forEach((_, number) => float(value(pointOf(number))));
       return { value, decimal: parser.decimal };
     });
     const [first, ...others] = readings;
@@ -375,22 +376,45 @@ const Judge = (() => {
     if (!open) return near(reading.value(pointOf(0)), key(pointOf(0)));
     return equivalent(reading.value, key) || (reading.decimal && isRounded(reading.value, key));
   }
+  // In lowest terms, where one letter is in it and all numbers are exact: without what Euclid finds above and below
+  function reduced(ratio) {
+    const terms = [...ratio.top, ...ratio.bottom];
+    const letters = new Set(terms.flatMap(([each]) => each.split(" ").filter(Boolean)));
+    if (letters.size !== 1 || !terms.every(([, number]) => isExact(number))) return ratio;
+    const [letter] = letters;
+    const product = (power) => Array(power).fill(letter).join(" ");
+    const listed = (poly) => {
+      const degree = Math.max(-1, ...[...poly.keys()].map((each) => each.split(" ").filter(Boolean).length));
+      return Array.from({ length: degree + 1 }, (_, power) => poly.get(product(power)) ?? whole(0));
+    };
+    const trimmed = (poly) => { while (poly.length && isZero(poly.at(-1))) poly.pop(); return poly; };
+    const dividedBy = (poly, other) => {
+      const [rest, found] = [[...poly], []];
+      while (rest.length >= other.length) {
+        const [factor, shift] = [divide(rest.at(-1), other.at(-1)), rest.length - other.length];
+        found[shift] = factor;
+        other.forEach((number, power) => { rest[power + shift] = subtract(rest[power + shift], multiply(factor, number)); });
+        rest.pop();
+      }
+      return [Array.from(found, (number) => number ?? whole(0)), trimmed(rest)];
+    };
+    let [common, other] = [listed(ratio.top), listed(ratio.bottom)];
+    while (other.length) [common, other] = [other, dividedBy(common, other)[1]];
+    const part = (poly) => new Map(dividedBy(listed(poly), common)[0].flatMap((number, power) => (isZero(number) ? [] : [[product(power), number]])));
+    return common.length > 1 ? new Ratio(part(ratio.top), part(ratio.bottom)) : ratio;
+  }
   // Each number of an expression is right to three digits, whichever of those below the line is taken to be as it is
   function isRounded(value, key) {
     let ours, theirs;
     try {
-      [ours, theirs] = [value, key].map((each) => Ratio.of(each(Ratio.letter)));
+      [ours, theirs] = [value, key].map((each) => reduced(Ratio.of(each(Ratio.letter))));
     } catch (error) {
       if (error instanceof Unreadable) return false;
       if (!(error instanceof NoRatio)) throw error;
       return sampled((point) => near(value(point), key(point)));
     }
     const alike = (one, other) => one.size === other.size && [...one.keys()].every((letters) => other.has(letters));
-    if (!alike(ours.top, theirs.top) || !alike(ours.bottom, theirs.bottom)) {
-      const one = Ratio.of(whole(1)).bottom;
-      [ours, theirs] = [new Ratio(product(ours.top, theirs.bottom), one), new Ratio(product(theirs.top, ours.bottom), one)];
-      if (!alike(ours.top, theirs.top)) return sampled((point) => near(value(point), key(point)));
-    }
+    if (!alike(ours.top, theirs.top) || !alike(ours.bottom, theirs.bottom)) return false;
     return [...theirs.bottom.keys()].some((letters) => ["top", "bottom"].every((part) => [...theirs[part]].every(([place, number]) =>
       near(divide(ours[part].get(place), ours.bottom.get(letters)), divide(number, theirs.bottom.get(letters))))));
   }

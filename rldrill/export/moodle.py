@@ -31,12 +31,13 @@ def moodle_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lam
         advance: called after each version.
     """
     quiz = ElementTree.Element("quiz")
+    times = _times([exercise for version in exam.versions for exercise in version.exercises])
     for version in exam.versions:
         category = ElementTree.SubElement(quiz, "question", type="category")
         name = exam.head.title.replace("/", "//") + (f"/{version.code}" if len(exam.versions) > 1 else "")
         _text(ElementTree.SubElement(category, "category"), f"$course$/top/{name}")
         for number, exercise in enumerate(version.exercises, 1):
-            quiz.append(_question(exam.head, number, exercise, practice=practice))
+            quiz.append(_question(exam.head, number, exercise, times, practice=practice))
         advance()
     ElementTree.indent(quiz)
     return b'<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(quiz, encoding="utf-8") + b"\n"
@@ -54,7 +55,17 @@ def _html(question: ElementTree.Element, tag: str, text: str, writer: WithFiles 
         file.text = b64encode(drawing.encode()).decode()
 
 
-def _question(head: Head, number: int, exercise: Exercise, *, practice: bool) -> ElementTree.Element:
+def _times(exercises: Sequence[Exercise]) -> int:
+    """By how much all points are multiplied: Moodle adds up the weights of the boxes, which are whole numbers."""
+    parts = [(_points(part), len(cells(exercise, part))) for exercise in exercises for part in exercise.parts]
+    return lcm(*(boxes // gcd(points, boxes) for points, boxes in parts))
+
+
+def _points(part: Part) -> int:
+    return max(1, part.points)
+
+
+def _question(head: Head, number: int, exercise: Exercise, times: int, *, practice: bool) -> ElementTree.Element:
     asked = [cell for part in exercise.parts for cell in cells(exercise, part)]
     by_hand = any(map(is_open, asked))
     question = ElementTree.Element("question", type="essay" if by_hand else "cloze")
@@ -62,11 +73,16 @@ def _question(head: Head, number: int, exercise: Exercise, *, practice: bool) ->
     writer, solved = WithFiles("picture", _PLACE), WithFiles("picture", _PLACE)
     told = note(head, asked, reads="both")
     body = writer.blocks(exercise.question()) + (f"<p><em>{told}</em></p>" if told else "")
-    _html(question, "questiontext", body + "".join(_parts(writer, head.language, exercise, by_hand=by_hand)), writer)
+    _html(
+        question,
+        "questiontext",
+        body + "".join(_parts(writer, head.language, exercise, times, by_hand=by_hand)),
+        writer,
+    )
     working = "".join(solved.solved(exercise, part) for part in exercise.parts)
     _html(question, "generalfeedback", working if practice else "", solved if practice else None)
     if by_hand:
-        ElementTree.SubElement(question, "defaultgrade").text = str(max(1, points_of(exercise)))
+        ElementTree.SubElement(question, "defaultgrade").text = str(times * max(1, points_of(exercise)))
         ElementTree.SubElement(question, "responseformat").text = "editor"
         _html(question, "graderinfo", working, solved)
     if exercise.id:
@@ -74,16 +90,13 @@ def _question(head: Head, number: int, exercise: Exercise, *, practice: bool) ->
     return question
 
 
-def _parts(writer: WithFiles, language: Language, exercise: Exercise, *, by_hand: bool) -> Iterator[str]:
+def _parts(writer: WithFiles, language: Language, exercise: Exercise, times: int, *, by_hand: bool) -> Iterator[str]:
     asked = {part.label: cells(exercise, part, language) for part in exercise.parts}
-    common = lcm(*map(len, asked.values()))
-    weights = {part.label: max(1, part.points) * (common // len(asked[part.label])) for part in exercise.parts}
-    shared = gcd(*weights.values())
     for part in exercise.parts:
         yield f"<p>{label(exercise, part)}{writer.text(part.ask)}</p>"
         if by_hand:
             continue
-        weight = weights[part.label] // shared
+        weight = times * _points(part) // len(asked[part.label])
         wrong = tuple(wrong_answers(exercise, part))
         boxes = [_box(language, part, cell, index, weight, wrong) for index, cell in enumerate(asked[part.label])]
         yield _laid_out(writer, part, asked[part.label], boxes)

@@ -19,9 +19,10 @@ from rldrill.solutions.answers.kinds import answer_kind
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
 #: (a) 3/4, perhaps in a list, bold, or in the tags that models are told to put around an answer.
 _LINE = re.compile(
-    r"^\s*(?:<answer>\s*)?(?:[-*•]\s+)?(?:\*\*)?(?:part\s+)?\(?([a-z])[):.]+(?:\*\*)?\s*(.+?)\s*(?:\*\*)?\s*(?:</answer>)?$",
+    r"^[^\S\n]*(?:<answer>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?(?:part\s+)?\(?([a-z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
     re.MULTILINE | re.IGNORECASE,
 )
+_TAGS = ("</answer>", "**")
 
 
 @dataclass
@@ -100,11 +101,19 @@ class Dataset(ProceduralDataset):  # type: ignore[misc, unused-ignore]
             return 0.0
         exercise = load(entry["metadata"]["id"])
         known = {part.label for part in exercise.parts}
-        texts = {label: text for label, text in _LINE.findall(answer) if label in known}
+        texts = {label.lower(): _bare(text) for label, text in _LINE.findall(answer) if label.lower() in known}
         if not texts and len(known) == 1:
             texts = dict.fromkeys(known, answer)
         graded = exercise.grade(texts)
         return float(graded.points / graded.of)
+
+
+def _bare(text: str) -> str:
+    """What was answered, without what is set behind it."""
+    text = text.strip()
+    for tag in _TAGS:
+        text = text.removesuffix(tag).rstrip()
+    return text
 
 
 def _question(data: dict[str, Any]) -> str:

@@ -144,7 +144,12 @@ def test_the_bound_itself_is_right_and_what_lies_beyond_is_not() -> None:
         ("x*gamma + x/3", ["gamma", "x"], "x(γ + 0.333)", "right"),
         # Not in lowest terms, as nobody takes the trouble
         ("(2 - gamma)/(3*(1 - gamma)^2)", ["gamma"], "0.33333/(1-γ) + 0.33333/(1-γ)^2", "right"),
+        ("(2 - gamma)/(3*(1 - gamma)^2)", ["gamma"], "0.333/(1-γ) + 0.333/(1-γ)^2", "right"),
         ("(2 - gamma)/(3*(1 - gamma)^2)", ["gamma"], "0.34/(1-γ) + 0.33333/(1-γ)^2", "wrong"),
+        ("(2 + gamma)/(6*(1 - gamma)^2)", ["gamma"], "0.333/(1-γ) + 0.5*γ/(1-γ)^2", "right"),
+        ("(1 - 4*gamma/3)/(1 - gamma)^2", ["gamma"], "1.33/(1-γ) - 0.333/(1-γ)^2", "right"),
+        ("100 + gamma + 100*gamma^2", ["gamma"], "(100 + 1.4*γ + 100.0*γ^2)*(1+γ)/(1+γ)", "wrong"),
+        ("(2*gamma + 4)/(3 - gamma)", ["gamma"], "(2.0γ + 4)*(γ^2 + 0.1γ)/((3 - γ)*(γ^2 + 0.1γ))", "right"),
         # No quotient of polynomials: compared at points
         ("exp(gamma)/3", ["gamma"], "0.33333 e^γ", "right"), ("exp(gamma)/3", ["gamma"], "0.34 e^γ", "wrong"),
         ("sqrt(x)/3", ["x"], "0.33333 sqrt(x)", "right"), ("sqrt(x)/3", ["x"], "0.34 sqrt(x)", "wrong"),
@@ -157,6 +162,12 @@ def test_of_an_expression_each_number_is_right_to_three_digits(
     assert judged(one, [typed])["outcome"] == outcome
     reading = read_number(typed, letters)
     assert is_right(reading.value, read_number(key, letters).value, rounded=reading.decimal) == (outcome == "right")
+
+
+@pytest.mark.parametrize("typed", ["10^400", "-10^350", "γ*10^320"])
+def test_what_is_too_large_is_not_right(typed: str) -> None:
+    one = {"parameters": ["gamma"], "cells": [{"name": "", "key": "(2 - 4*gamma)/(1 - gamma^2)"}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == "unreadable"
 
 
 def test_a_typical_mistake_is_told() -> None:
