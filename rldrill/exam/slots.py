@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cache
 from itertools import chain, islice, zip_longest
 
 from msgspec import Struct
@@ -11,12 +12,13 @@ from rldrill.exam.blueprint import MOST_PROBLEMS, MOST_VERSIONS, Blueprint, Entr
 from rldrill.exam.expected import COUNTED, variety
 from rldrill.exam.expected import minutes as expected
 from rldrill.exam.selection import level_of
-from rldrill.exercise import Exercise, load
+from rldrill.exercise import Exercise, draw, load
 from rldrill.problems.catalogue import chosen, headers
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError, UsageError, UserError
 from rldrill.problems.headers import Header
+from rldrill.solutions.effort import minutes as time_of
 
 #: So many random choices are made to fill a time; the one that fits best is taken.
 _TRIALS = 200
@@ -52,17 +54,25 @@ class Slot(Struct, frozen=True):
     @property
     def minutes(self) -> int:
         """How many minutes such a problem takes about."""
-        return self._of_its_level(expected())
+        return self._of_its_level(expected()) or _estimated(self.family, self.level)
 
     @property
     def variety(self) -> int:
         """How many versions may have such a problem and share no answer, as far as that is counted."""
         counted = self._of_its_level(variety())
-        return MOST_VERSIONS if counted == COUNTED else counted
+        return MOST_VERSIONS if counted in (None, COUNTED) else counted
 
-    def _of_its_level(self, figures: Mapping[str, Sequence[int]]) -> int:
-        levels = figures[self.family]
-        return levels[min(self.level or 2, len(levels)) - 1]
+    def _of_its_level(self, figures: Mapping[str, Sequence[int]]) -> int | None:
+        """What is known of our own families; None for those of other packages."""
+        levels = figures.get(self.family)
+        return None if levels is None else levels[min(self.level or 2, len(levels)) - 1]
+
+
+@cache
+def _estimated(family: str, level: int | None) -> int:
+    """The minutes of a problem of a family of which no file tells them."""
+    exercise = draw(family, level or family_of(family).levels[0])
+    return max(1, round(time_of(exercise.solution)))
 
 
 def slots(
