@@ -468,6 +468,16 @@ def test_keys_that_are_forced_on_another_exam_leave_its_manifest(tmp_path: Path)
     assert (tmp_path / "one.pdf").exists()
 
 
+def test_no_export_takes_the_place_of_a_manifest(tmp_path: Path) -> None:
+    run("return", "-n", 1, "--seed", 4, "-o", tmp_path / "a.pdf")
+    manifest = (tmp_path / "a.json").read_bytes()
+    for made in (["--from", tmp_path / "a.json", "--format", "json"], ["td-zero", "-o", tmp_path / "a.json"]):
+        assert "a.json is the manifest of an exam, without which it" in refused(*made, "--force")
+    assert (tmp_path / "a.json").read_bytes() == manifest
+    assert run("--from", tmp_path / "a.json", "-o", tmp_path / "b.json")[0] == ["b.json"]
+    assert run("--from", tmp_path / "a.json", "-o", tmp_path / "b.json", "--force")[0] == ["b.json"]
+
+
 def test_a_run_that_was_ended_goes_on(tmp_path: Path) -> None:
     arguments = ("return", "-n", 1, "--seed", 4, "--versions", 2, "-o", tmp_path / "a.pdf")
     run(*arguments)

@@ -7,6 +7,7 @@ from pathlib import Path
 from msgspec import Struct
 
 from rldrill.exam.exam import Exam, Version
+from rldrill.exam.manifest import is_manifest
 from rldrill.problems.errors import UsageError
 from rldrill.problems.notations import used
 from rldrill.writing import write_bytes_atomically
@@ -109,9 +110,14 @@ def check(exam: Exam, path: Path, format_: Format, *, force: bool) -> None:
     """Refuse to write where something is already.
 
     Raises:
-        UsageError: so it is, and it is not to be replaced.
+        UsageError: so it is, and it is not to be replaced; or it is the manifest of an exam.
     """
     there = [target for version in exam.versions if (target := version_path(exam, path, format_, version)).exists()]
+    if there and is_manifest(there[0]):
+        raise UsageError(
+            f"{there[0]} is the manifest of an exam, without which it can be neither printed again nor graded; choose "
+            "another name with -o."
+        )
     if there and not force:
         raise UsageError(f"{there[0]} is there already; --force replaces it, or choose another name with -o.")
 
