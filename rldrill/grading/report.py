@@ -232,9 +232,9 @@ class Report(Struct, frozen=True):
         return int(bool(codes) or not all(map(self.passed, self.students)))
 
     def passed(self, student: StudentReport) -> bool:
-        """Whether a student has enough points, or everything right where nobody says how many are enough."""
+        """Whether a student has enough points, or all right that counts where nobody says how many are enough."""
         if self.needed is None:
-            return all(part.judged.accepted for part in student.parts)
+            return all(part.judged.accepted for part in student.parts if part.score.of)
         return student.score.share >= self.needed
 
     def scaled(self, student: StudentReport) -> Score | None:

@@ -85,6 +85,21 @@ def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, ma
     assert student(report, "Ben").score.points == 3
 
 
+def test_a_part_that_shall_not_count_decides_nothing(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    data = json.loads(path.read_text())
+    (part,) = data["versions"][0]["problems"][0]["parts"]
+    part["points"] = 0
+    path.write_text(json.dumps(data))
+    rows = [("Ann", "", *place, text) for place, text in keys(made.versions[0]).items()]
+    for first in ([("Ann", "", "1", "a", "no")], []):
+        report = graded(tmp_path, [*first, *rows[1:]], Assignment(path))
+        assert report.exit_code == 0
+        assert report.students[0].score.share == 1
+        assert "yes" in tables.totals(report)
+    assert graded(tmp_path, [rows[0]], Assignment(path)).exit_code == 1
+
+
 def test_an_entry_that_is_left_out_costs_what_a_wrong_one_costs(tmp_path: Path) -> None:
     blueprint = Blueprint(problems=(Asked(id="td-zero/2/18", partial=("entries", "all")),), seed=1, decimal_mark=",")
     (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
