@@ -470,6 +470,13 @@ def test_files_that_answers_name_are_opened_only_with_leave_and_only_beside_them
     assert "names a problem file; --allow-files opens those that lie beside the answers." in refusal.says
 
 
+def test_a_path_that_cannot_be_looked_at_does_not_stop_the_others(folder: Path) -> None:
+    good = write(folder, "good.toml", '["td.toml"]\na = "6.8"\n')
+    report = verify([good, folder / f"{'a' * 300}.csv"])
+    assert [part.judged.verdict for part in report.parts] == ["right"]
+    assert report.exit_code == 3
+
+
 def test_one_bad_file_does_not_stop_the_others(folder: Path) -> None:
     right = write(folder, "right.toml", '"td.toml" = 6.8')
     wrong = write(folder, "wrong.toml", '"td.toml" = 7')

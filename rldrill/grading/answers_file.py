@@ -149,9 +149,9 @@ _WHOSE = re.compile(r"""^[\s{]*["']?(?:student|name|number)["']?\s*[=:]\s*["']?(
 
 def whose_file(path: str | Path) -> str:
     """Who seems to have written a file that cannot be read as one of answers; empty where that is not known."""
-    if not Path(path).is_file():  # to open a pipe waits for whoever writes into it
-        return ""
     try:
+        if not Path(path).is_file():  # to open a pipe waits for whoever writes into it
+            return ""
         with Path(path).open("rb") as file:
             begun = file.read(_BEGINNING).decode("utf-8", "replace")
     except OSError:
