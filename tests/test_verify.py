@@ -470,6 +470,28 @@ def test_files_that_answers_name_are_opened_only_with_leave_and_only_beside_them
     assert "names a problem file; --allow-files opens those that lie beside the answers." in refusal.says
 
 
+@pytest.mark.parametrize("state", ["market", "may", "decoy"])
+def test_words_that_begin_as_a_month_does_are_no_dates(folder: Path, state: str) -> None:
+    # V₁ = max(5 + 1/2 · 0, 1 + 1/2 · 0) = 5.
+    write(folder, "own.toml", f"""family = "value-iteration"
+[given]
+gamma = "1/2"
+sweeps = 1
+start = {{ {state} = 0 }}
+[given.mdp]
+transitions = [["{state}", "sell", "end", 1, 5], ["{state}", "keep", "{state}", 1, 1]]
+terminal = ["end"]
+""")  # fmt: skip
+    sheet = write(folder, "a.csv", f"problem,part,answer\nown.toml,a,{state} 5\n")
+    assert verify([sheet]).parts[0].judged.verdict == "right"
+
+
+@pytest.mark.parametrize("typed", ["3-Apr", "03. Apr", "Mar-04", "4 March", "12-Dez-2024", "2024-04-03", "1. Mai"])
+def test_dates_are_told(folder: Path, typed: str) -> None:
+    sheet = write(folder, "a.csv", f"problem,part,answer\nreturn.toml,a,{typed}\n")
+    assert "is a date" in verify([sheet]).parts[0].judged.reason
+
+
 def test_a_path_that_cannot_be_looked_at_does_not_stop_the_others(folder: Path) -> None:
     good = write(folder, "good.toml", '["td.toml"]\na = "6.8"\n')
     report = verify([good, folder / f"{'a' * 300}.csv"])

@@ -39,13 +39,18 @@ _PROBLEMS = 200
 #: every second draw.
 _OTHER_DRAWS = 16
 _COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
-_MONTH = "(?:jan|feb|m[aä]r|apr|ma[iy]|jun|jul|aug|sep|o[ck]t|nov|de[cz])[a-z]*"
+_MONTH = (
+    "(?:jan(?:uary?)?|feb(?:ruary?)?|m[aä]r(?:ch|z)?|apr(?:il)?|ma[iy]|jun[ei]?|jul[iy]?|aug(?:ust)?|sep(?:t|tember)?|"
+    "o[ck]t(?:ober)?|nov(?:ember)?|de[cz](?:ember)?)"
+)
 #: What a spreadsheet makes of 3/4: 3-Apr, 4-Mar, Apr-03, 03. Apr, 2024-04-03, 03.04.2024, 3/4/2024.
 _DATE = re.compile(
     rf"\d{{1,2}}(?:\. ?|[- ]){_MONTH}(?:[- ]\d{{2,4}})?|{_MONTH}[- ]\d{{1,2}}|"
     r"(?:19|20)\d\d-\d\d-\d\d(?:[ T]00:00(?::00)?)?|\d{1,2}\.\d{1,2}\.(?:19|20)\d\d|\d{1,2}/\d{1,2}/(?:19|20)\d\d",
     re.IGNORECASE,
 )
+#: A word in it, such as the name of a month.
+_WORD = re.compile(r"[^\W\d_]{3}")
 
 
 class Rules(Struct, frozen=True):
@@ -201,7 +206,7 @@ class _Problem:
             text = "" if entry is None else self._text(part, entry)
             if entry is None or not text.strip():
                 result.append((part.label, entry, self._missing(part)))
-            elif entry.is_cell and _DATE.fullmatch(text.strip()):
+            elif entry.is_cell and self._is_date(part, text.strip()):
                 result.append((part.label, entry, self._date(part, text)))
             else:
                 verdict, judged = self._answer(part, text, given)
@@ -305,6 +310,10 @@ class _Problem:
         if key not in self._judged:
             self._judged[key] = missing(part.points, self._key(part))
         return self._judged[key]
+
+    def _is_date(self, part: Part, text: str) -> bool:
+        """Whether it is a date; a month may also be the name of a state, and then it can be read."""
+        return bool(_DATE.fullmatch(text)) and not (_WORD.search(text) and self._readable(part, text))
 
     def _date(self, part: Part, text: str) -> Judged:
         says = (
