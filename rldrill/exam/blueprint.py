@@ -164,12 +164,10 @@ def read_blueprint(path: str | Path) -> Blueprint:
         blueprint._total = f"{where}, line {line}: "
     starts = [text.count("\n", 0, found.end()) + 1 for found in _EACH.finditer(text)]
     blueprint._lines = tuple(starts) if len(starts) == len(blueprint.problems) else ()
-    left_out = _left_out(blueprint.exclude, f"{where}, line {_line(text, ['exclude'])}")
+    _check_left_out(blueprint.exclude, f"{where}, line {_line(text, ['exclude'])}")
     seen: set[str] = set()
     for index, entry in enumerate(blueprint.problems):
         flaw = _flaw(entry)
-        if entry.family in left_out:
-            flaw = f"{entry.family} is left out by exclude; take it out there, or here."
         if entry.id in seen:
             flaw = f"{entry.id} is there already; one of them is enough."
         if flaw:
@@ -178,14 +176,14 @@ def read_blueprint(path: str | Path) -> Blueprint:
     return blueprint
 
 
-def _left_out(names: Sequence[str], where: str) -> frozenset[str]:
-    """The families that are never drawn.
+def _check_left_out(names: Sequence[str], where: str) -> None:
+    """Refuse what is neither a topic nor a family.
 
     Raises:
-        FileError: one of the names is neither a topic nor a family.
+        FileError: one of the names is none.
     """
     try:
-        return frozenset(chosen(names)) if names else frozenset()
+        chosen(names)
     except UsageError as error:
         raise FileError(f"{where}: {error}") from None
 

@@ -1,6 +1,6 @@
 """The places of an exam: which family and level, or which fixed problem, stands where."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from functools import cache
 from itertools import chain, islice, zip_longest
@@ -90,8 +90,9 @@ def slots(
         FileError: a name in a file does not exist, or a family has no such level; with the line.
         UsageError: the same on a command line.
     """
+    left_out = frozenset(chosen(blueprint.exclude)) if blueprint.exclude else frozenset()
     keys = [f"order {seed} {index}" for index in range(len(blueprint.problems))]
-    named = {index: _named(blueprint, index, draws(key)) for index, key in enumerate(keys)}
+    named = {index: _named(blueprint, index, left_out, draws(key)) for index, key in enumerate(keys)}
     rest = (blueprint.minutes or 0) - sum(slot.minutes for found in named.values() for slot in found or ())
     topics = [index for index, found in named.items() if found is None]
     if blueprint.minutes and topics and rest < 1:
@@ -101,7 +102,7 @@ def slots(
     for index in topics:
         weights = [blueprint.problems[other].count or _SHARE for other in topics if other >= index]
         time = None if blueprint.minutes is None else rest * weights[0] // sum(weights)
-        found = _of_topics(blueprint, index, draws(keys[index]), time, versions)
+        found = _of_topics(blueprint, index, left_out, draws(keys[index]), time, versions)
         rest -= sum(slot.minutes for slot in found)
         named[index] = found
     return tuple(
@@ -126,7 +127,7 @@ def _told(where: str) -> Iterator[None]:
         raise
 
 
-def _named(blueprint: Blueprint, index: int, draws: Draws) -> list[Slot] | None:
+def _named(blueprint: Blueprint, index: int, left_out: Set[str], draws: Draws) -> list[Slot] | None:
     """The places of an entry that names its problem or family; None for one that names topics."""
     entry = blueprint.problems[index]
     with _told(blueprint.place(index)):
@@ -136,27 +137,26 @@ def _named(blueprint: Blueprint, index: int, draws: Draws) -> list[Slot] | None:
         if entry.family is None:
             return None
         (header,) = headers([family_of(entry.family).name])
+        if header.name in left_out:
+            raise UsageError(f"{header.name} is left out by exclude; take it out there, or here.")
         if entry.level is not None and entry.level not in header.levels:
             raise UsageError(f"{header.name} has no level {entry.level}; it has {', '.join(map(str, header.levels))}.")
         return [Slot(header.name, level_of(header.levels, entry.level, draws)) for _ in range(entry.count or 1)]
 
 
-def _of_topics(blueprint: Blueprint, index: int, draws: Draws, time: int | None, versions: int) -> list[Slot]:
+def _of_topics(
+    blueprint: Blueprint, index: int, left_out: Set[str], draws: Draws, time: int | None, versions: int
+) -> list[Slot]:
     entry = blueprint.problems[index]
     with _told(blueprint.place(index)):
-        candidates = _headers(entry.topic or (), blueprint.exclude)
+        candidates = tuple(header for header in headers(entry.topic or ()) if header.name not in left_out)
+        if not candidates:
+            names, less = ", ".join(entry.topic or ("all families",)), ", ".join(blueprint.exclude)
+            raise UsageError(f"Nothing is left of {names} without {less}.")
     if time is None:
         return list(islice(_endless(candidates, entry.level, draws, versions), entry.count or 1))
     trials = (_filled(candidates, entry, draws, time, versions) for _ in range(_TRIALS))
     return min(trials, key=lambda found: abs(time - sum(slot.minutes for slot in found)))
-
-
-def _headers(names: Sequence[str], exclude: Sequence[str]) -> tuple[Header, ...]:
-    left_out = set(chosen(exclude)) if exclude else set()
-    found = tuple(header for header in headers(tuple(names)) if header.name not in left_out)
-    if not found:
-        raise UsageError(f"Nothing is left of {', '.join(names) or 'all families'} without {', '.join(exclude)}.")
-    return found
 
 
 def _endless(candidates: Sequence[Header], level: int | None, draws: Draws, versions: int) -> Iterator[Slot]:

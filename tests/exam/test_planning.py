@@ -141,6 +141,18 @@ def test_what_is_excluded_is_not_drawn() -> None:
         plan(blueprint("bandit", seed=4, exclude=("control",)))
 
 
+@pytest.mark.parametrize("problem", [Entry(family="td_zero", level=2), Entry(id="td-zero/2/18")])
+def test_what_is_excluded_is_known_and_not_named(problem: Entry) -> None:
+    with pytest.raises(UsageError, match="There is no topic or family 'nonsense'"):
+        slots(Blueprint(problems=(problem,), exclude=("nonsense",)), 1)
+    left_out = Blueprint(problems=(problem,), exclude=("temporal-difference",))
+    if problem.is_fixed:
+        assert len(slots(left_out, 1)) == 1
+        return
+    with pytest.raises(UsageError, match="td-zero is left out by exclude; take it out there, or here"):
+        slots(left_out, 1)
+
+
 def test_too_few_different_problems_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rldrill.exam.pool._ATTEMPTS", -20)
     with pytest.raises(UsageError, match="too few different problems"):
