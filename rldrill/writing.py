@@ -11,20 +11,27 @@ from pathlib import Path
 def whole(path: Path) -> Iterator[Path]:
     """Where to write a file that appears when it is complete, or not at all, in a folder that is made if need be.
 
-    What stood there before stays until then.
+    What stood there before stays until then. A link stays, and what it names is replaced; a pipe or device is
+    given what was written.
 
     Raises:
         OSError: the folder cannot be written to, or the disk is full; ``filename`` is set.
     """
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.")
+        takes = path.exists() and not path.is_file()
+        real = Path(os.path.realpath(path))
+        if not takes:
+            real.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=None if takes else real.parent, prefix=f".{path.name[:40]}.")
         os.close(handle)
         unfinished = Path(name)
         try:
             yield unfinished
-            unfinished.chmod(_file_mode(path))
-            unfinished.replace(path)
+            if takes:
+                path.write_bytes(unfinished.read_bytes())
+            else:
+                unfinished.chmod(_file_mode(real))
+                unfinished.replace(real)
         finally:
             unfinished.unlink(missing_ok=True)
     except OSError as error:

@@ -372,6 +372,31 @@ def test_a_file_is_replaced_with_its_rights(tmp_path: Path) -> None:
     assert path.stat().st_mode & 0o777 == 0o640
 
 
+def test_a_link_stays_one_and_what_it_names_is_replaced(tmp_path: Path) -> None:
+    real, link, dangling = tmp_path / "there" / "real.json", tmp_path / "link.json", tmp_path / "dangling.json"
+    write_bytes_atomically(real, b"old")
+    link.symlink_to("there/real.json")
+    dangling.symlink_to(tmp_path / "there" / "none.json")
+    for path in (link, dangling):
+        write_bytes_atomically(path, b"new")
+        assert path.is_symlink()
+        assert path.read_bytes() == b"new"
+    assert real.read_bytes() == b"new"
+    assert {path.name for path in (tmp_path / "there").iterdir()} == {"real.json", "none.json"}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such pipes")
+def test_a_pipe_stays_one_and_takes_what_is_written(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reading = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    write_bytes_atomically(pipe, b"new")
+    assert os.read(reading, 9) == b"new"
+    os.close(reading)
+    assert pipe.is_fifo()
+    assert list(tmp_path.iterdir()) == [pipe]
+
+
 # The command
 
 
