@@ -55,7 +55,7 @@ def table(
     line, named = next(((line, fields) for line, fields in records if any(map(str.strip, fields))), (1, []))
     if isinstance(named, str):
         raise FileError(named)
-    header = _names(named)
+    header = meant(named)
     while header and not header[-1]:
         del header[-1]
     there = {*header, "student"} if {*_FIRST, *_LAST} & {*header} else {*header}
@@ -110,18 +110,14 @@ def _separator(text: str, wanted: Sequence[str]) -> tuple[str, int, str]:
         return told[1], text.count("\n", 0, told.end()), text[told.end() :]
     first = text.lstrip("\r\n").partition("\n")[0]
     known = {*_ALSO, *_ALSO.values(), *_FIRST, *_LAST, *wanted}
-    return max(",;\t", key=lambda sign: len(known & {*_names(first.split(sign))})), 0, text
+    return max(",;\t", key=lambda sign: len(known & {*meant(first.split(sign))})), 0, text
 
 
-def _names(fields: Sequence[str]) -> list[str]:
-    names = [" ".join(re.sub('[_"-]', " ", field).lower().split()) for field in fields]
-    there = {None, *names}
-    return [_ALSO[name] if _ALSO.get(name) not in there else name for name in names]
-
-
-def meant(name: str) -> str:
-    """What a column or field holds that is called so."""
-    return _names([name])[0]
+def meant(names: Sequence[str]) -> list[str]:
+    """What columns or fields hold that are called so, side by side: a ``name`` is no student where that is one, too."""
+    spelled = [" ".join(re.sub('[_"-]', " ", name).lower().split()) for name in names]
+    there = {None, *spelled}
+    return [_ALSO[name] if _ALSO.get(name) not in there else name for name in spelled]
 
 
 def _numbered(text: str, separator: str, before: int, where: str) -> Iterator[tuple[int, list[str] | str]]:

@@ -323,6 +323,8 @@ def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> No
     ("name", "content"),
     [
         ("a.toml", 'name = "Ann"\n"Student ID" = 7\n"td.toml" = 1'),
+        ("a.toml", 'student = "Ann"\nname = "Exam of spring"\nnumber = "7"\n"td.toml" = 1'),
+        ("a.jsonl", '{"name": "Exam of spring", "student": "Ann", "sid": 7, "problem": "td.toml", "answer": 1}'),
         ("a.toml", 'student = "Ann"\nnumber = "7"\n[answers]\n"td.toml" = 1'),
         ("a.json", '{"Name": "Ann", "Matrikelnummer": 7, "answers": {"td.toml": 1}}'),
         ("a.jsonl", '{"Student name": "Ann", "sid": 7, "Problem ID": "td.toml", "response": 1}'),
@@ -388,6 +390,9 @@ FAULTY = [
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n{"problem": \n', "line 2, column"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n[]\n', "line 2: a line is an object"),
     ("a.jsonl", '{"problem": "td.toml"}', "line 1: the field 'answer' is missing"),
+    ("a.jsonl", '{"name": "Ann", "full name": "A", "problem": "td.toml", "answer": 1}', "the field 'student' stands"),
+    ("a.toml", 'name = "Ann"\n"Full name" = "A"\n"td.toml" = 1', "the field 'student' stands twice"),
+    ("a.csv", HEAD + "Ann,2a,b,1\n", "line 2: '2a' and the part 'b' stand there; keep one of them"),
     ("a.jsonl", '{"problem": 1.5, "answer": 1}', "'1.5' is neither a problem ID"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1, "answer": 2}', "line 1: the key 'answer' stands twice"),
     ("a.txt", "1", "must end in .toml, .json, .csv, .jsonl or .ndjson"),

@@ -4,7 +4,7 @@ What is wrong with one answer is refused with its line, and costs only that answ
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
 
@@ -22,7 +22,8 @@ from rldrill.typed import typed
 SUFFIXES = (".toml", ".json", ".csv", ".jsonl", ".ndjson")
 #: Whose answers a file holds stands among its first bytes.
 _BEGINNING = 4096
-_NAMED = ("student", "number", "problem", "part")
+_WHO = ("student", "number")
+_NAMED = (*_WHO, "problem", "part")
 _COLUMNS = ("student", "problem", "part", "answer")
 _KNOWN = (*_NAMED, "answer")
 _NEEDED = ("problem", "answer")
@@ -183,7 +184,10 @@ def _entry(fields: Mapping[str, object], line: int | None, column: int | None, p
     place = Entry("", "", "", "", line, path, column=column).where
     student, number, problem, part = (_word(fields.get(name), name, place) for name in _NAMED)
     if numbered := _NUMBERED.fullmatch(problem):
-        problem, part = numbered[1], part or (numbered[2] or "").lower()
+        label = (numbered[2] or "").lower()
+        if label and part.strip(" ().").lower() not in ("", label):
+            raise FileError(f"{place}: {_quoted(problem)} and the part {_quoted(part)} stand there; keep one of them.")
+        problem, part = numbered[1], part or label
     if (
         not looks_like_id(problem)
         and not PLACE.fullmatch(problem)
@@ -214,6 +218,19 @@ def _in_one_line(text: str) -> str:
     return "".join(sign if sign.isprintable() or sign in JOINERS else repr(sign)[1:-1] for sign in text.strip())[:80]
 
 
+def _meanings(keys: Sequence[str], where: str) -> dict[str, str]:
+    """What the fields that stand side by side mean.
+
+    Raises:
+        FileError: two of them are the student, or something else that there is once.
+    """
+    names = meant(keys)
+    for name in _KNOWN:
+        if names.count(name) > 1:
+            raise FileError(f"{where}: the field '{name}' stands twice; keep one of them.")
+    return dict(zip(keys, names, strict=True))
+
+
 def _tables(text: str, path: Path) -> Iterator[Row]:
     """TOML and JSON: problem → part → answer, or problem → answer where there is one part."""
     where = shown(path)
@@ -226,8 +243,9 @@ def _tables(text: str, path: Path) -> Iterator[Row]:
     found = places(text, path)
     if not isinstance(data, dict):
         raise FileError(f"{where}: a file of answers is a table from problem IDs to answers.")
-    whose = {key: meant(key) for key, value in data.items() if key == "student" or not isinstance(value, dict | list)}
-    person = {name: data.pop(key) for key, name in whose.items() if name in ("student", "number")}
+    single = [key for key, value in data.items() if key == "student" or not isinstance(value, dict | list)]
+    person = {name: data[key] for key, name in _meanings(single, where).items() if name in _WHO}
+    data = {key: value for key, value in data.items() if key not in single or meant([key])[0] not in _WHO}
     above = ("answers",) if "answers" in data else ()
     answers = data.pop("answers", None) if above else data
     if answers is not data and data:
@@ -261,7 +279,7 @@ def _object(line: str, path: Path, number: int) -> dict[str, object]:
     here = f"{shown(path)}, line {number}"
     if not isinstance(data, dict):
         raise FileError(f'{here}: a line is an object, as in {{"problem": "td-zero/2/7", "answer": "7/2"}}.')
-    data = {meant(key): value for key, value in data.items()}
+    data = {name: data[key] for key, name in _meanings([*data], here).items()}
     for name in _NEEDED:
         if name not in data:
             raise FileError(f"{here}: the field '{name}' is missing; give it.")
