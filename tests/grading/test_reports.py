@@ -249,3 +249,13 @@ def test_no_more_is_told_than_is_asked_for(report: Report, feedback: str) -> Non
     assert bool(re.search(r"\d of \d", text_report.written(report, feedback))) == (feedback != "none")
     assert ("points" in seen) == (feedback != "none")
     assert ("first reward" in text) == (feedback in ("reason", "key"))
+
+
+def test_a_long_name_is_not_cut_within_a_character(tmp_path: Path) -> None:
+    name = f"x{'&' * 30}.toml"
+    (tmp_path / name).write_text('family = "return"\ngiven = {rewards = [3, -2, 4, 1], gamma = "1/2", time = 1}\n')
+    answers = tmp_path / "a.csv"
+    answers.write_text(f"problem,part,answer\n{name},a,1\n")
+    text = page.written(verify([answers], Settings(allow_files=True)), "reason")
+    assert f">x{'&amp;' * 30}.toml" in text
+    assert not re.search("&(?!(amp|lt|gt|quot|#x27);)", text)

@@ -82,7 +82,7 @@ def _parts(report: Report, feedback: str) -> str:
             bars += f'<rect class="{fate}" {place}><title>{tip}</title></rect>'
             x += width
         rows.append(
-            f'<text x="0" y="{y + 14}">{_text(name)[:60]}</text>{bars}'
+            f'<text x="0" y="{y + 14}">{escape(one_line(name)[:60])}</text>{bars}'
             f'<text x="530" y="{y + 14}">{100 * counts["right"] / len(parts):.0f} % right</text>'
         )
     picture = (
