@@ -82,7 +82,10 @@ def verify(
     settings = settings or Settings()
     handed: list[HandedIn] = []
     refused: list[Refusal] = []
-    for path in dict.fromkeys(paths):
+    files: dict[str, str | Path] = {}
+    for path in paths:
+        files.setdefault(_place(path), path)
+    for path in files.values():
         try:
             handed.append(read_answers(path))
             refused += handed[-1].refused
@@ -105,6 +108,14 @@ def verify(
     exam = settings.assignment
     title, scale = ("", None) if exam is None else (exam.title, exam.scale)
     return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed, scale)
+
+
+def _place(path: str | Path) -> str:
+    """Where a file is, whatever it is called."""
+    try:
+        return os.path.realpath(path)
+    except ValueError:  # no name of a file
+        return str(path)
 
 
 class _Student(Struct):

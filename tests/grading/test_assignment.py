@@ -536,7 +536,10 @@ def test_a_file_that_is_named_twice_is_read_once(tmp_path: Path) -> None:
     path, made = exam(tmp_path)
     answers = tmp_path / "a.csv"
     answers.write_text(f"{HEAD}Ann,,1,a,{keys(made.versions[0])['1', 'a']}\n", encoding="utf-8")
+    (tmp_path / "b.csv").symlink_to(answers)
     for settings in (Settings(), Settings(assignment=Assignment(path))):
-        report = verify([answers, answers], settings)
+        report = verify(
+            [answers, answers, tmp_path / "b.csv", tmp_path / "." / ".." / tmp_path.name / "a.csv"], settings
+        )
         assert [each.remark for each in report.students] == ([""] if settings.assignment else [])
         assert len(report.refused) == (0 if settings.assignment else 1)  # problem 1 of which exam?
