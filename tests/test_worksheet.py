@@ -582,6 +582,20 @@ def test_a_problem_that_is_named_twice_is_printed_once(tmp_path: Path) -> None:
     assert len(version["problems"]) == 1
 
 
+def test_a_family_at_a_level_is_a_problem_as_often_as_it_is_named(tmp_path: Path) -> None:
+    run("return/1", "return/1", "return/2", "-o", tmp_path / "x.json")
+    (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
+    assert [problem["level"] for problem in version["problems"]] == [1, 1, 2]
+
+
+@pytest.mark.parametrize("names", [["td-zero/1/7", "return"], ["td-zero/1/7", "return/1"]])
+def test_no_more_problems_are_named_than_are_wanted(tmp_path: Path, names: list[str]) -> None:
+    assert "2 problems are named, and -n asks for 1" in refused(*names, "-n", 1, "-o", tmp_path / "x.json")
+    run(*names, "-n", 2, "-o", tmp_path / "x.json")
+    (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
+    assert len(version["problems"]) == 2
+
+
 @pytest.mark.parametrize(("wanted", "said"), [(24, False), (300, True)])  # eight short problems take 300 nowhere
 def test_minutes_that_are_missed_are_told(tmp_path: Path, wanted: int, said: bool) -> None:
     _, told = run("bellman", "--level", 1, "-n", 8, "-m", wanted, "--seed", 1, "-o", tmp_path / "no" / "x.html")

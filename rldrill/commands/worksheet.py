@@ -120,7 +120,7 @@ def command(
             return
         written = _reprinted(source, output, changes, only_keys=key, force=force)
     else:
-        blueprint, stem, planned = _blueprint(list(dict.fromkeys(names or ())), count, minutes, level)
+        blueprint, stem, planned = _blueprint(names or [], count, minutes, level)
         blueprint = blueprint.but(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
         )
@@ -222,11 +222,17 @@ def _blueprint(
     paths = [name for name in names if Path(name).suffix.lower() in (".toml", ".json")]
     plans = [name for name in paths if name.lower().endswith(".toml") and is_blueprint(read_data(name))]
     if plans:
-        if len(names) > 1 or count or level:
+        if len({*names}) > 1 or count or level:
             raise UsageError(f"{plans[0]} is a blueprint, which names the problems itself; leave the other names out.")
         return read_blueprint(plans[0]).but(minutes=minutes), Path(plans[0]).stem, True
-    entries = {name: entry for name in names if (entry := _entry(name))}
-    fixed, rest = [*entries.values()], tuple(name for name in names if name not in entries)
+    entries = [(name, _entry(name)) for name in names]
+    rest = tuple(name for name, entry in entries if entry is None)
+    fixed: list[Entry] = []
+    for _, entry in entries:
+        if entry is not None and not (entry.is_fixed and entry in fixed):
+            fixed.append(entry)
+    if count is not None and count < (named := len(fixed) + bool(rest)):
+        raise UsageError(f"{named} problems are named, and -n asks for {count}; raise it, or leave names out.")
     if rest or not fixed:
         wanted = None if minutes and count is None else max(1, (count or _PROBLEMS) - len(fixed))
         fixed.append(Entry(topic=rest, count=wanted, level=level))
