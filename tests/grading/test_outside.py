@@ -40,6 +40,20 @@ def test_its_families_are_audited_like_our_own(installed: Path) -> None:
         assert finding["misconceptions"]["recognised"] == finding["misconceptions"]["made"] > 0
 
 
+@pytest.mark.parametrize("wanted", [["optimism"], ["optimism/2"], ["exploration", "-m", "20"]])
+def test_its_problems_stand_in_exams(installed: Path, tmp_path: Path, wanted: list[str]) -> None:
+    output = tmp_path / "exam.json"
+    done = run(installed, "worksheet", *wanted, "--seed", "1", "-o", str(output))
+    assert done.returncode == 0, done.stderr
+    (version,) = json.loads(output.read_text())["versions"]
+    assert {problem["id"].partition("/")[0] for problem in version["problems"]} == {"optimism"}
+
+
+def test_it_is_fixed_in_an_exam_that_fills_a_time(installed: Path, tmp_path: Path) -> None:
+    done = run(installed, "worksheet", "optimism/1/7", "return", "-m", "20", "-o", str(tmp_path / "exam.json"))
+    assert done.returncode == 0, done.stderr
+
+
 def test_its_answers_are_graded_with_their_mistakes(installed: Path, tmp_path: Path) -> None:
     # 1/2² · 6 / (1 − 1/2) = 3; with one more step 3/2.
     (tmp_path / "mine.toml").write_text('family = "optimism"\ngiven = {reward = 6, time = 2, gamma = "1/2"}\n')
