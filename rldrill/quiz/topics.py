@@ -16,7 +16,7 @@ _BAR = 10
 
 def topic_map(attempts: Sequence[Attempt], now: datetime) -> RenderableType:
     """Every topic with how much of it was asked, and how much of it would be right today."""
-    groups = {name.replace("_", "-"): own for name, families in topics().items() if (own := skills(families))}
+    groups = {name.replace("_", "-"): skills(families) for name, families in topics().items()}
     shares = progress(attempts, groups, now).shares
     rows = [
         (share.name, "█" * round(_BAR * share.mastery) + "─" * (_BAR - round(_BAR * share.mastery)),

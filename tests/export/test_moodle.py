@@ -169,3 +169,17 @@ def test_points_are_shared_as_those_of_the_parts() -> None:
     weights = [weight for weight, _, _ in boxes(question.findtext("questiontext/text") or "")]
     first, second = rldrill.load("td-zero/2/234").parts
     assert Fraction(sum(weights[:3]), sum(weights)) == Fraction(first.points, first.points + second.points)
+
+
+def test_problems_weigh_what_they_are_worth_in_the_exam() -> None:
+    """A question weighs what its boxes weigh together, an essay what is said; policy-value/3/1 has an open letter."""
+    exercises = tuple(map(rldrill.load, (*PROBLEMS, "policy-value/3/1")))
+    exam = Exam(Head(title="Points"), 1, (Version("A", exercises, tuple(range(len(exercises)))),))
+    shares, kinds = set(), set()
+    for exercise, question in zip(exercises, ElementTree.fromstring(moodle_exam(exam, practice=True))[1:], strict=True):
+        boxed = sum(weight for weight, _, _ in boxes(question.findtext("questiontext/text") or ""))
+        weight = int(question.findtext("defaultgrade") or 0) if question.get("type") == "essay" else boxed
+        shares.add(Fraction(weight, sum(part.points for part in exercise.parts)))
+        kinds.add(question.get("type"))
+    assert kinds == {"cloze", "essay"}
+    assert len(shares) == 1

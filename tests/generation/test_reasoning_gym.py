@@ -4,6 +4,7 @@ import pytest
 
 reasoning_gym = pytest.importorskip("reasoning_gym", reason="an extra; CI has it")
 import rldrill.generation.reasoning_gym  # noqa: E402, F401
+from promptness import at_once
 
 
 def test_the_answers_of_the_dataset_earn_everything_and_others_their_share() -> None:
@@ -49,3 +50,15 @@ def test_answers_may_be_set_as_models_set_them() -> None:
         text = "\n".join(form.format(label, value) for label, value in (("a", first), ("b", second)))
         assert dataset.score_answer(text, dataset[0]) == 1, text
     assert dataset.score_answer(f"<answer>{dataset[0]['answer']}</answer>", dataset[0]) == 1
+    capitals = dataset[0]["answer"].replace("(a)", "(A)").replace("(b)", "(B)")
+    assert dataset.score_answer(capitals, dataset[0]) == 1
+    # A part without its answer takes none from the next one.
+    assert dataset.score_answer(f"(a)\n(b) {second}", dataset[0]) == 0.5
+
+
+def test_blanks_without_end_take_no_time() -> None:
+    dataset = reasoning_gym.create_dataset("rldrill", names=("return",), level=1, seed=3, size=1)
+    entry = dataset[0]
+    blank = " " * 20_000
+    with at_once():
+        assert dataset.score_answer(f"(a){blank}x{blank}y\n{blank}\n{blank}z", entry) == 0

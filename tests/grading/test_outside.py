@@ -88,26 +88,6 @@ def test_the_quiz_knows_its_skills_and_its_mistakes(installed: Path) -> None:
     assert topics[-1] == "exploration"
 
 
-@pytest.mark.parametrize("wanted", [["optimism"], ["optimism/2"], ["exploration", "-m", "20"]])
-def test_its_problems_stand_in_exams(installed: Path, tmp_path: Path, wanted: list[str]) -> None:
-    output = tmp_path / "exam.json"
-    done = run(installed, "worksheet", *wanted, "--seed", "1", "-o", str(output))
-    assert done.returncode == 0, done.stderr
-    (version,) = json.loads(output.read_text())["versions"]
-    assert {problem["id"].partition("/")[0] for problem in version["problems"]} == {"optimism"}
-
-
-def test_it_is_fixed_in_an_exam_that_fills_a_time(installed: Path, tmp_path: Path) -> None:
-    done = run(installed, "worksheet", "optimism/1/7", "return", "-m", "20", "-o", str(tmp_path / "exam.json"))
-    assert done.returncode == 0, done.stderr
-
-
-def test_the_map_of_topics_has_those_whose_minutes_are_known(installed: Path) -> None:
-    code = "from datetime import *; from rldrill.quiz.topics import *; topic_map([], datetime.now(UTC))"
-    environment = os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{installed}"}
-    subprocess.run([sys.executable, "-c", code], env=environment, check=True, timeout=60)
-
-
 def test_a_package_that_is_none_is_told(tmp_path: Path) -> None:
     metadata = tmp_path / "other-1.0.dist-info"
     metadata.mkdir()
