@@ -4,7 +4,7 @@ import pytest
 
 reasoning_gym = pytest.importorskip("reasoning_gym", reason="an extra; CI has it")
 import rldrill.generation.reasoning_gym  # noqa: E402, F401
-from promptness import at_once
+from promptness import at_once  # noqa: E402
 
 
 def test_the_answers_of_the_dataset_earn_everything_and_others_their_share() -> None:
