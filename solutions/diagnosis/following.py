@@ -29,7 +29,9 @@ from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.vector import Vector
 
 #: Signs between the sides of a line.
-_SIDES = re.compile(r"=|←|≈|:(?!\d)|⇒|→")
+_SIDES = re.compile(r"=|←|≈|:(?!\d)")
+#: What leads from one value to the next, which need not be the same.
+_NEXT = re.compile(r"[⇒→]")
 #: What begins with a number, whatever sign or bracket it has, is no name.
 _NUMERIC = re.compile(r"[-+−(√\s]*[\d.]")
 #: The time or number of an update, which is told before it: t = 2.
@@ -101,17 +103,13 @@ class _Follower:
         return self._placed(text, label, sides[-1])
 
     def _read(self, text: str) -> tuple[str, list[Entries]]:
-        """The name before the first sign, and the sides that are numbers, vectors or matrices."""
-        pieces = [piece.strip() for piece in _SIDES.split(_WHEN.sub("", text))]
-        sides = []
+        """The name before the first sign, and the sides behind the last arrow that are numbers, vectors or matrices."""
+        steps = [list(map(str.strip, _SIDES.split(step))) for step in _NEXT.split(_WHEN.sub("", text))]
         label = ""
-        for place, piece in enumerate(pieces):
-            if place == 0 and len(pieces) > 1 and not _NUMERIC.match(piece):
-                label = piece
-                continue
-            if (entries := self._entries(piece)) is not None:
-                sides.append(entries)
-        return label, sides
+        if sum(map(len, steps)) > 1 and not _NUMERIC.match(steps[0][0]):
+            label = steps[0].pop(0)
+        read_ = [[entries for piece in step if (entries := self._entries(piece)) is not None] for step in steps]
+        return label, next(filter(None, reversed(read_)), [])
 
     def _entries(self, piece: str) -> Entries | None:
         readings: list[Callable[[], Entries]] = [

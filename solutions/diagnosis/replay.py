@@ -10,7 +10,7 @@ from msgspec import Struct, field
 from sympy import Expr
 
 from rldrill.problems.family import Problem
-from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, TooLong, length, tidy
+from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, TooLong, length, simplest, tidy
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import Quantity
@@ -117,7 +117,9 @@ class Recorder(Work):
         left, first = step.formula.left, None
         if isinstance(left, Quantity) and isinstance(table := known.get(left.code), Mapping):
             first = self._first.setdefault(left.code, table)
-        self.applications.append(Application(len(self.applications), nth, step, value, known, equation, first))
+        self.applications.append(
+            Application(len(self.applications), nth, step, simplest(value), known, equation, first)
+        )
 
 
 def _key(case: Mapping[str, Any]) -> Any:
