@@ -199,8 +199,7 @@ class Diagnosing:
 
     def unmasked(self, label: str, text: str, verdict: Verdict, settled: Mapping[str, Any] | None = None) -> Verdict:
         """The verdict itself; but what is close to the key by accident, since something is missing, is wrong."""
-        large = len(self.solution.work.values) > _LARGEST
-        if verdict.outcome is not Outcome.CLOSE or large or self._rounded(label, text):
+        if verdict.outcome is not Outcome.CLOSE or self._is_large() or self._rounded(label, text):
             return verdict
         self.finish()
         clock = Clock()  # a verdict depends on none
@@ -210,6 +209,11 @@ class Diagnosing:
             return verdict
         said = _told(found, self.search({}).applications).sentence
         return replace(verdict, outcome=Outcome.WRONG, says=said)
+
+    def _is_large(self) -> bool:
+        """Whether the working is larger than any that is drawn; of a system of equations the square counts."""
+        values = self.solution.work.values
+        return len(values) + sum(len(value) ** 2 for value in values if isinstance(value, dict)) > _LARGEST
 
     def _rounded(self, label: str, text: str) -> bool:
         """Whether the wrong numbers are right ones with fewer digits than are asked for."""

@@ -10,7 +10,8 @@ from flint import fmpq, fmpq_poly
 from rldrill.solutions.exact import Value, is_rational, simplest, to_sympy
 from rldrill.solutions.rational import RationalFunction
 
-_MOST_PARTS, _MOST_POWER = 60, 4
+#: An expression of more parts than this, and of more powers together, is not multiplied out.
+_MOST_PARTS, _MOST_POWERS = 60, 6
 
 
 class Place(NamedTuple):
@@ -39,9 +40,16 @@ def coefficients(value: Value, letters: Sequence[str]) -> Mapping[Place, Value] 
         expression, symbols = to_sympy(value), [sympy.Symbol(letter, positive=True) for letter in letters]
         if not expression.is_rational_function(*symbols) or not _is_short(expression):
             return None
+        if not expression.has(sympy.Function, sympy.NumberSymbol) and not any(
+            map(_is_root, expression.atoms(sympy.Pow))
+        ):
+            parts = sympy.fraction(sympy.cancel(expression, *symbols))
+        elif expression.is_polynomial(*symbols):
+            parts = expression, sympy.S.One
+        else:
+            return None  # among roots and logarithms to look for what is common takes long
         above, below = (
-            [(powers, simplest(number)) for powers, number in sympy.Poly(part, *symbols).terms()]
-            for part in sympy.fraction(sympy.cancel(expression, *symbols))
+            [(powers, simplest(number)) for powers, number in sympy.Poly(part, *symbols).terms()] for part in parts
         )
     numbers = {
         Place(powers, under): number for under, terms in ((False, above), (True, below)) for powers, number in terms
@@ -53,7 +61,11 @@ def _is_short(expression: sympy.Expr) -> bool:
     """Whether an expression is multiplied out in no time."""
     parts = list(islice(sympy.preorder_traversal(expression), _MOST_PARTS + 1))
     powers = [part.exp for part in parts if part.is_Pow and part.exp.is_Integer]
-    return len(parts) <= _MOST_PARTS and all(abs(power) <= _MOST_POWER for power in powers)
+    return len(parts) <= _MOST_PARTS and sum(map(abs, powers)) <= _MOST_POWERS
+
+
+def _is_root(power: sympy.Pow) -> bool:
+    return not power.exp.is_Integer
 
 
 def _terms(poly: fmpq_poly, one: Sequence[bool]) -> Iterator[tuple[tuple[int, ...], Value]]:

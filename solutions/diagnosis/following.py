@@ -34,8 +34,12 @@ _SIDES = re.compile(r"=|←|≈|:(?!\d)")
 _NEXT = re.compile(r"[⇒→]")
 #: What begins with a number, whatever sign or bracket it has, is no name.
 _NUMERIC = re.compile(r"[-+−(√\s]*[\d.]")
+#: Signs of a working: with one of them what can be read is none, either.
+_WORKED = re.compile(r"[-+−*·]")
+#: The number of a line before it.
+_COUNTED = re.compile(r"\A\s*(?:\(\w\)|\[\w\])\s+")
 #: The time or number of an update, which is told before it: t = 2.
-_WHEN = re.compile(r"\s*[^\W\d_](?:_?\w)?\s*=\s*\d+\s*:(?=\s)")
+_WHEN = re.compile(r"\A\s*[^\W\d_](?:_?\w)?\s*=\s*\d+\s*:(?=\s)")
 _WORDS = {"gamma": "γ", "alpha": "α", "delta": "δ", "lambda": "λ", "epsilon": "ε", "theta": "θ", "pi": "π", "rho": "ρ"}
 
 
@@ -104,12 +108,17 @@ class _Follower:
 
     def _read(self, text: str) -> tuple[str, list[Entries]]:
         """The name before the first sign, and the sides behind the last arrow that are numbers, vectors or matrices."""
-        steps = [list(map(str.strip, _SIDES.split(step))) for step in _NEXT.split(_WHEN.sub("", text))]
+        text = _WHEN.sub("", _COUNTED.sub("", text))
+        steps = [list(map(str.strip, _SIDES.split(step))) for step in _NEXT.split(text)]
         label = ""
-        if sum(map(len, steps)) > 1 and not _NUMERIC.match(steps[0][0]):
+        if sum(map(len, steps)) > 1 and self._is_name(steps[0][0]):
             label = steps[0].pop(0)
         read_ = [[entries for piece in step if (entries := self._entries(piece)) is not None] for step in steps]
         return label, next(filter(None, reversed(read_)), [])
+
+    def _is_name(self, piece: str) -> bool:
+        """Whether what stands before the first sign is a name, V(s) or ∂f/∂x, and not a side."""
+        return not _NUMERIC.match(piece) and (not _WORKED.search(piece) or self._entries(piece) is None)
 
     def _entries(self, piece: str) -> Entries | None:
         readings: list[Callable[[], Entries]] = [

@@ -29,9 +29,13 @@ def test_what_is_said(family: str, given: dict[str, Any], typed: str, said: str)
     assert exercise.diagnose(typed, "a").sentence == f"It looks as if {said}."
 
 
-def test_in_a_large_problem_what_is_close_is_taken_for_close_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("family", ["optimal-value", "policy-value"])
+def test_in_a_large_problem_what_is_close_is_taken_for_close_at_once(
+    monkeypatch: pytest.MonkeyPatch, family: str
+) -> None:
     mdp = {"grid": "...G\n....\n....\n....", "rewards": {"G": 1}, "slip": "1/10"}
-    exercise = rldrill.read({"family": "optimal-value", "given": {"gamma": "9/10", "mdp": mdp}})
+    more = {"policy": "uniform"} if family == "policy-value" else {}
+    exercise = rldrill.read({"family": family, "given": {"gamma": "9/10", "mdp": mdp} | more})
     close = {state: float(value) * (1.01 if state == "r1c1" else 1) for state, value in exercise.answers()["a"].items()}
     verdict = exercise.check(close, "a")
     assert verdict.outcome is Outcome.CLOSE

@@ -32,6 +32,7 @@ def run() -> rldrill.Exercise:
         ["10", "5", "4.25"],
         ["V(cave) = 17/4"],
         ["t = 0: V(cave) ← 8 + 1/2*(8 + 1/2*8 - 8) = 10", "k=1: V(floor) ← -3 + 8 = 5", "(8 + 1)/2 - 1/4 = 17/4"],
+        ["(1) V(cave) = 10", "[2] 5", "(c) 17/4"],
         ["V(cave): 8 → 10", "8 ⇒ 8 - 3 = 5", "V(cave) = 10 → 17/4"],
         ["δ = 4", "V(cave) ← 8 + 1/2*4 = 10", "δ = -6", "V(floor) = 8 - 3 = 5"],
     ],
@@ -59,7 +60,20 @@ def test_a_line_without_a_name_is_held_against_the_steps_that_are_left(run: rldr
     assert [line.step for line in followed.lines] == [0, 1]
 
 
-@pytest.mark.parametrize("line", ["-2 + 13 = 10", "−2 + 13 = 10", "(1 + 10) = 10", "√4 + 9 = 10", ".5 + 11/2 = 10"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "-2 + 13 = 10",
+        "−2 + 13 = 10",
+        "(1 + 10) = 10",
+        "√4 + 9 = 10",
+        ".5 + 11/2 = 10",
+        "e^0 + 11 = 10",
+        "[1] -2 + 13 = 10",
+        "(2) 11 - 0 = 10",
+        "t = 0: sqrt(4) + 9 = 10",
+    ],
+)
 def test_a_line_that_begins_with_a_sign_is_worked_out_too(run: rldrill.Exercise, line: str) -> None:
     assert [told.standing for told in run.follow([line]).lines] == ["miscalculated"]
 
