@@ -67,7 +67,7 @@ def the_key(name: str, keys: Sequence[Key], ends: Sequence[str], whole: Source) 
 
 def keys_named(name: str, keys: Sequence[Key]) -> list[Key]:
     """The keys that a name may mean: ``cool``, ``V(cool)``, ``V_cool``, ``p(cool|wet)``; ``Q(cool, fast)``."""
-    spellings = _spellings(keys)
+    spellings = _spellings(tuple(keys))
     for candidate in _candidates(name):
         spread = candidate if _single(keys) else _spread(candidate)
         if hits := matches(spread, spellings):
@@ -119,7 +119,8 @@ def _spread(name: str) -> str:
     return re.sub(r"[\s,/|;()]+", " ", name).strip()
 
 
-def _spellings(keys: Sequence[Key]) -> list[tuple[str, Key]]:
+@lru_cache(maxsize=16)
+def _spellings(keys: tuple[Key, ...]) -> Sequence[tuple[str, Key]]:
     """How each key is typed; of pairs that have one half in common, or one for each state, the other half is enough."""
     spellings = [(key if isinstance(key, str) else _spread(" ".join(key)), key) for key in keys]
     pairs = [key for key in keys if not isinstance(key, str)]
@@ -128,7 +129,7 @@ def _spellings(keys: Sequence[Key]) -> list[tuple[str, Key]]:
             half == 0 and len({state for state, _ in pairs}) == len(pairs)
         ):
             spellings += [(_spread(key[half]), key) for key in pairs]
-    return spellings
+    return tuple(spellings)
 
 
 def _beside(inner: str, spellings: Sequence[tuple[str, Key]], keys: Sequence[Key]) -> Iterator[Key]:
