@@ -37,8 +37,9 @@ AT_THE_PROMPT = 0.15
 _SHOWN = 0.05
 #: What is close to the key is wrong where it is so sure that something likely was done, and no slip of arithmetic.
 _SURE = 0.6
-#: A verdict depends on no clock: in a working of more applications, twice the most that are drawn, a close answer is
-#: taken for close, since all that may be missing is not looked for in a time that anybody waits.
+#: What is said whatever time there is (a verdict, lists of wrong answers) takes a search without a clock. In a working
+#: of more applications than are drawn nobody waits for its end: what is close is close there, and only stated mistakes
+#: are listed.
 _LARGEST = 46
 #: What is not written in a step: one that was left out or taken twice, a minimum, a quantity that was not asked for.
 _NOT_WRITTEN = ("kept", "repeated", "min-for-max", "smallest", "another-quantity")
@@ -226,11 +227,15 @@ class Diagnosing:
         return Typed(part, read_answer(self.solution, part, text), key)
 
     def wrong_answers(self, label: str, number: int) -> tuple["WrongAnswer", ...]:
-        """Wrong answers to a part, the likeliest first, each with what it comes from."""
+        """Wrong answers to a part, the likeliest first, each with what it comes from.
+
+        Of a working larger than any that is drawn only those that stated mistakes give: to find all takes too long.
+        """
         search, outcomes = self.search({}), self.outcomes(label, {})
         kind = answer_kind(outcomes.part.kind)
         found: dict[str, WrongAnswer] = {}
-        for candidate in sorted(search.whole(Clock()), key=lambda each: -each.cause.weight):
+        every = search.stated() if self._is_large() else search.whole(Clock())
+        for candidate in sorted(every, key=lambda each: -each.cause.weight):
             if len(found) == number:
                 break
             with suppress(*UNDONE):

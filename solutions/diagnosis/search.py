@@ -102,7 +102,7 @@ class Search:
         for mistake, answers in mistakes:
             again = partial(self._mistaken, mistake)
             yield Candidate(Cause("listed", weights.LISTED, mistake=mistake), answers, again)
-        yield from self._stated()
+        yield from self.stated()
         yield from self._ideas()
         yield from self._habits()
         yield from self._misread()
@@ -125,7 +125,7 @@ class Search:
         if answers is not None:
             yield Candidate(cause, answers, partial(self.replay, change, None))
 
-    def _stated(self) -> Iterator[Candidate]:
+    def stated(self) -> Iterator[Candidate]:
         """What is stated beside a formula as its mistake, though the family does not list it among its own."""
         own = {mistake.key for mistake in self.solution.applicable}
         given = self.problem.given
