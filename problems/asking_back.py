@@ -6,6 +6,7 @@ from typing import Annotated, Any, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
+from rldrill.problems.document import begun
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import PARAMETERS, Exact, Parameter, shown
 from rldrill.problems.fractions import Fraction, fraction_of
@@ -230,7 +231,7 @@ def back_asked(given: AskingBack, outcome: Outcome, table: Rows, of: str = "Q") 
     if other := rival(given, outcome, table):
         pair = f'${of}("{state}", "{action}")$ and ${of}("{state}", "{other}")$'
         return Part(f"For which {sought} are {pair} equal {after(given)}?", Number())
-    ask = f'{after(given).capitalize()} ${of}("{state}", "{action}") = {shown(value)}$. What is the {sought}?'
+    ask = f'{begun(after(given))} ${of}("{state}", "{action}") = {shown(value)}$. What is the {sought}?'
     return Part(ask, Number())
 
 

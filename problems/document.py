@@ -104,6 +104,11 @@ def joined(items: list[str]) -> str:
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
 
 
+def begun(sentence: str) -> str:
+    """A sentence with a capital at its beginning, and all other letters as they are."""
+    return sentence[:1].upper() + sentence[1:]
+
+
 def counted(number: int, what: str) -> str:
     """A number of things: ``1 part``, ``2 parts``."""
     return f"{number} {what}{'' if number == 1 else 's'}"

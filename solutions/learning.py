@@ -6,7 +6,7 @@ from typing import Any
 from flint import fmpq
 
 from rldrill.problems.control import q_learning, sarsa
-from rldrill.problems.document import joined
+from rldrill.problems.document import begun, joined
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import answer_along
 from rldrill.solutions.exact import Value, told
@@ -22,7 +22,7 @@ def learn(given: q_learning.Given | sarsa.Given, work: Work, update: Formula, er
     errors: list[Value] = []
     for seen in knowns.moves(given):
         if update is Q_LEARNING and (greatest := greatest_told(work, known, seen["S"][seen["t"] + 1])):
-            work.say(f"{greatest[0].upper()}{greatest[1:]}.")
+            work.say(f"{begun(greatest)}.")
         if given.td_errors:
             errors.append(work.step(error, **seen, **known))
         pair = seen["S"][seen["t"]], seen["A"][seen["t"]]

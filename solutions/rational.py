@@ -176,7 +176,9 @@ def linear(value: Value, parameter: str) -> tuple[Value, Value]:
     Raises:
         NoSolution: the value does not depend on the parameter, or not linearly.
     """
-    if not isinstance(value, RationalFunction) or value.parameter != parameter or value.top.degree() != 1:
+    if not isinstance(value, RationalFunction) or value.parameter != parameter:
+        raise NoSolution(f"{parameter} falls out of the equation that it is to be found from; change what is given")
+    if value.top.degree() != 1:
         raise NoSolution(f"the equation is not linear in {parameter}; change the numbers that are given")
     return value.top[1], value.top[0]
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple, TypeAlias
 
-from rldrill.problems.document import joined
+from rldrill.problems.document import begun, joined
 from rldrill.problems.models import Transition
 from rldrill.solutions.exact import NoSolution, Value, parameters, told
 from rldrill.solutions.formula.formula import Formula
@@ -67,14 +67,14 @@ def reached(
     value = chosen(ends.values())
     (best, *_) = (action for action, end in ends.items() if end == value)
     if less := [action for action in worths if action not in ends]:
-        work.say(f"{joined(less).capitalize()} {'is' if len(less) == 1 else 'are'} worth less than ${told(target)}$.")
+        work.say(f"{begun(joined(less))} {'is' if len(less) == 1 else 'are'} worth less than ${told(target)}$.")
     more = []
     for end in dict.fromkeys(end for end in ends.values() if end != value):
         work.say(f"With $y = {told(end)}$ {best} is worth:")
         worth = work.step(formula, s=state, a=best, **known, V={**values, given.other: end})
         more.append(f"${told(worth)}$ with $y = {told(end)}$")
     if more:
-        too_much = f"{best.capitalize()} would be worth {joined(more)}, more than ${told(target)}$"
+        too_much = f"{begun(best)} would be worth {joined(more)}, more than ${told(target)}$"
         work.say(f"{too_much}: so $y = {told(value)}$ is right.")
     else:
         work.say(f"So {best} is best in {state}.")

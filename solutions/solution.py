@@ -6,13 +6,15 @@ from functools import cache, cached_property, lru_cache
 from types import ModuleType
 from typing import Any
 
+from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.errors import BrokenFamily
+from rldrill.problems.exact import PARAMETERS, SHARES
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.answers.kinds import Answer, answer_kind
 from rldrill.solutions.answers.rule import apart
-from rldrill.solutions.exact import NoSolution, NotGiven, NotReal
+from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, told
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
 
@@ -79,6 +81,8 @@ def _made(family: Family, read: tuple[Formula, ...]) -> tuple[Misconception, ...
     return tuple([each for each in solver(family).misconceptions if each.is_slip or each in in_reading])
 
 
+#: What may also be a reward; where its complement is given, too, it is a probability.
+_CHANCES = frozenset({"p", "q"})
 #: Of a longer working no mistakes are made: nobody does it by hand, and each takes as long as the solution.
 _MOST_LINES = 2000
 
@@ -244,4 +248,27 @@ def solve(problem: Problem, attempts: int = 1) -> Solution:
     Raises:
         NoSolution: the problem has no answer (a value that does not exist, a singular matrix).
     """
-    return Solution(problem, run(problem), attempts)
+    work = run(problem)
+    _check_found(problem, work)
+    return Solution(problem, work, attempts)
+
+
+def _check_found(problem: Problem, work: Work) -> None:
+    """Refuse a letter that is asked for, and has no value in its range.
+
+    Raises:
+        NoSolution: a discount, a chance or a step size would be below 0 or above 1.
+    """
+    answers = list(work.answers.values())
+    for letter, value in work.letters:
+        if type(value) is fmpq and value in answers and not _is_in_range(letter, value, problem):
+            raise NoSolution(
+                f"{PARAMETERS.get(letter, letter)} would have to be {told(value)}, and it lies between 0 and 1; change "
+                "what is known"
+            )
+
+
+def _is_in_range(letter: str, value: fmpq, problem: Problem) -> bool:
+    if letter not in SHARES or (letter in _CHANCES and f"1-{letter}" not in str(problem.given.model_dump())):
+        return True
+    return 0 <= value <= 1 and (value > 0 or letter != "alpha")

@@ -241,6 +241,7 @@ class Work:
     answers: dict[str, Any] = field(default_factory=dict)
     ends: dict[str, int] = field(default_factory=dict)
     read: dict[Formula, None] = field(default_factory=dict)
+    letters: list[tuple[str, Any]] = field(default_factory=list)
 
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
@@ -383,6 +384,7 @@ class Work:
         if sign(slope) < 0:
             slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
+        self.letters.append((letter, value))
         unknown = generator(letter)
         self.lines.append(Equality(left, (right,)))
         if cleared:

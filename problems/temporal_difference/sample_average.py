@@ -13,7 +13,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, Named, check_keys, values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
-from rldrill.problems.phrases import in_open, step_size
+from rldrill.problems.phrases import check_one_open, in_open, step_size
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.settings import draw_setting, in_order
 
@@ -52,6 +52,7 @@ class Given(Reversible):
             raise ValueError("counts: a constant step size does not depend on them; give either counts or alpha")
         elif len(self.values) > 1:
             raise ValueError("values: with a constant step size give the value of the one state that is visited")
+        check_one_open(self)
         return self
 
     @property

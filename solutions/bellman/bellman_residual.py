@@ -6,7 +6,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from rldrill.problems.bellman.bellman_residual import Claimed, Given, Sought
-from rldrill.problems.document import joined
+from rldrill.problems.document import begun, joined
 from rldrill.problems.exact import shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model
@@ -84,7 +84,7 @@ def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
     worths = {a: work.step(Q_STAR_FROM_V, s=row.state, a=a, **known) for a in mdp.actions[row.state]}
     less = [action for action in worths if action != row.action]
     of_state = f'$V("{row.state}")$'
-    beaten = f"{joined(less).capitalize()} {'is' if len(less) == 1 else 'are'} worth less than {of_state}"
+    beaten = f"{begun(joined(less))} {'is' if len(less) == 1 else 'are'} worth less than {of_state}"
     work.say(f"{beaten}, so {row.action} must reach it:")
     reward = work.equate(letter, worths[row.action], V[row.state])
     work.say(f"With ${letter} = {told(reward)}$ all residuals are $0$, and {_only(optimal=True)}: so $V = V^*$.")

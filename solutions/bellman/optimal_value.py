@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from msgspec.structs import replace
 
 from rldrill.problems.bellman.optimal_value import Given, Optimal, Sought, of_two_steps
-from rldrill.problems.document import joined
+from rldrill.problems.document import begun, joined
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, equiprobable
 from rldrill.problems.valued import deterministic
@@ -87,7 +87,7 @@ def _least(given: Sought, work: Work, known: Mapping[str, Any], policy: dict[str
     if beaten := [f"{action} in {state}" for state, action in others if (state, action) != row[:2]]:
         verb = "is" if len(beaten) == 1 else "are"
         work.say(
-            f"{joined(beaten).capitalize()} {verb} worth no more than the action of $π_{{{last.number}}}$, so without "
+            f"{begun(joined(beaten))} {verb} worth no more than the action of $π_{{{last.number}}}$, so without "
             f"{instead} it is optimal."
         )
     work.say(f"So {instead} is a best action as soon as it is worth as much as {last.policy[row.state]}:")

@@ -6,7 +6,7 @@ from typing import Any
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import find, oracle_along
-from rldrill.solutions.exact import exact, parameters, to_sympy
+from rldrill.solutions.exact import NoSolution, exact, parameters, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import NO_ACTION
 from rldrill.solutions.numerics import np
@@ -75,12 +75,15 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]], 
         chosen = selected[time] if time < len(selected) else None
         tables = tables | {(table, *pair): _update(work, table, time, tables, known, chosen) for table in updated(turn)}
         if given.outcome and time == len(given.updates) - 1:
+            if given.outcome[:2] not in given.updated_in(turn):
+                where = f"({given.outcome.state}, {given.outcome.action})"
+                raise NoSolution(f"outcome: Q_{turn}, the table of the last update, does not change at {where}")
             worth = {pair: tables[turn, *pair] for pair in given.updated}
             find(given, given.outcome, work, worth, given.values if turn == 1 else given.second, f"Q_{turn}")
             return
         later = {table for turn in given.updates[time + 1 :] for table in updated(turn)}
         for table in updated(turn):
-            if table not in later:
+            if table not in later and not given.outcome:
                 answer = work.answer({pair: tables[table, *pair] for pair in given.updated_in(table)})
                 tables = tables | {(table, *pair): value for pair, value in answer.items()}
 

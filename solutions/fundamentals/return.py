@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import Any
 
 from rldrill.problems.runs import per_step
-from rldrill.solutions.exact import ONE, ZERO, exact, sign, to_sympy
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, exact, sign, to_sympy
 from rldrill.solutions.formula.notation import quantity, subscripted
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -75,6 +75,10 @@ def _compare(given: Any, work: Work) -> None:
         beyond = ONE
         told = "Without a discount, $γ = 1$, the returns are the sums of the rewards,"
     first, second = (work.value(RETURN, t=0, **known, gamma=beyond) for known in both)
+    if first == second:
+        raise NoSolution(
+            f"with γ = {to_sympy(beyond)} both returns are {to_sympy(first)}, and it is asked which is larger"
+        )
     larger = "A" if sign(first - second) > 0 else "B"
     ends = f"$R_0 = {to_sympy(first)}$ and $R'_0 = {to_sympy(second)}$"
     work.say(f"{told} {ends}: that of {EPISODES[larger]} episode is larger.")
@@ -94,9 +98,11 @@ def _step_by_step(given: Any, work: Work, known: dict[str, Any]) -> None:
     G = {known["T"]: ZERO}
     for time in reversed(range(known["T"])):
         G[time] = work.step(RETURN_STEP_BY_STEP, t=time, G=dict(G), **known)
-        if time == given.time:
+        if time == given.time and given.known is None:
             G[time] = work.answer(G[time])
-    if given.time is None:
+    if given.known is not None:
+        find(given, work, G[0])
+    elif given.time is None:
         work.answer(tuple(G[time] for time in range(known["T"])))
     elif given.time:
         work.answer(G[0])

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from rldrill.problems.exact import Scalar, needed
+from rldrill.problems.exact import Parameter, Scalar, needed
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.return_infinite import Given
 from rldrill.solutions.exact import Value, exact
@@ -31,7 +31,13 @@ def solve(given: Given, work: Work) -> None:
         tail = work.answer(_tail(given, work, exact))
         if k:
             work.answer(_from_start(given, work, exact, tail))
-    elif k and given.letter in map(str, given.repeated):
+    elif k and _is_open(given.repeated) and _is_open(given.first):
+        found = work.equate(
+            given.letter, _from_start(given, work, exact, _tail(given, work, exact)), exact(given.known)
+        )
+        work.answer(_tail(given, work, reading(found)))
+        work.answer(found)
+    elif k and _is_open(given.repeated):
         _in_the_round(given, work, exact(given.known))
     elif k and given.letter != "gamma":
         find(given, work, _from_start(given, work, exact, work.answer(_tail(given, work, exact))))
@@ -39,6 +45,10 @@ def solve(given: Given, work: Work) -> None:
         letter = find(given, work, _from_start(given, work, exact, _tail(given, work, exact)))
         if k:
             work.answer(_tail(given, work, reading(letter)))
+
+
+def _is_open(rewards: tuple[Scalar, ...]) -> bool:
+    return any(isinstance(reward, Parameter) for reward in rewards)
 
 
 def _in_the_round(given: Given, work: Work, known: Value) -> None:

@@ -50,8 +50,11 @@ def solve(given: Given, work: Work) -> None:
 
 def _known(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
     run, gamma = given.trajectory, given.gamma
-    discounts = knowns.discounts(gamma) if isinstance(gamma, tuple) else {"gamma": read(gamma)}
-    known = knowns.trajectory(run) | discounts
+    known = knowns.trajectory(run)
+    if isinstance(gamma, tuple):
+        known["gammas"] = {time: read(each) for time, each in enumerate(gamma, 1)}
+    else:
+        known["gamma"] = read(gamma)
     known["V"] = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
     end = len(run.rewards)
     beyond = range(end + 1, max(end, *(time + steps for time, steps in given.asked)) + 2)

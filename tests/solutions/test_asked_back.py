@@ -1,0 +1,73 @@
+"""What is asked back in problems of one's own: worked by hand, and refused where no number in its range does it."""
+
+from typing import Any
+
+import pytest
+
+import rldrill
+from rldrill.problems.errors import FileError
+
+RUN = {"states": ["A", "B", "end"], "actions": ["l", "r"], "rewards": [1, 2], "terminal": ["end"]}
+DOUBLE = {
+    "trajectory": RUN, "values": {"A": {"l": 0, "r": 1}, "B": {"l": 3, "r": 2}},
+    "second": {"A": {"l": 0, "r": 0}, "B": {"l": 1, "r": 1}}, "updates": [1, 2], "alpha": "alpha", "gamma": 1,
+}  # fmt: skip
+STEPS = {
+    "trajectory": {"states": ["A", "B", "C"], "rewards": [1, 2]}, "values": {"A": 1, "B": 2, "C": 4},
+    "gamma": ["gamma", "1/2"], "asked": [[0, 1], [0, 2]], "known": 2,
+}  # fmt: skip
+ANSWERED = [
+    # x + 1/2 = 3
+    ("return", {"rewards": ["x", 1], "gamma": ["1/2", "1/2"], "known": 3}, {"a": "5/2"}),
+    # Q₂(B, r) = 1 + α(2 − 1); the first transition updates Q₁ alone.
+    ("double-q-learning", DOUBLE | {"outcome": ["B", "r", "3/2"]}, {"a": "1/2"}),
+    # 2 + R₁/2 = 2, and R₁ = 2(1 − x)
+    ("return-infinite", {"first": [2], "repeated": ["1-x"], "gamma": "1/2", "known": 2}, {"a": "0", "b": "1"}),
+    # x + ½·2x = 3, and R₁ = 2x
+    ("return-infinite", {"first": ["x"], "repeated": ["x"], "gamma": "1/2", "known": 3}, {"a": "3", "b": "3/2"}),
+    # 1 + 2γ = 2; 1 + ½(2 + ½·4)
+    ("n-step-return", STEPS, {"a": "1/2", "b": "3"}),
+]
+
+
+@pytest.mark.parametrize(("family", "given", "answers"), ANSWERED)
+def test_what_is_asked_back_by_hand(family: str, given: dict[str, Any], answers: dict[str, str]) -> None:
+    exercise = rldrill.read({"family": family, "given": given})
+    assert {label: str(answer) for label, answer in exercise.answers().items()} == answers
+
+
+REFUSED = [
+    ("return", {"rewards": [1, 2], "others": [2, 1], "gamma": "1/2"}, "with γ = 1 both returns are 3"),
+    ("double-q-learning", DOUBLE | {"outcome": ["A", "l", 1]}, "Q_2, the table of the last update, does not change at"),
+    ("value-from-action-values",
+     {"values": {"A": {"l": 1, "r": 2}}, "policy": {"A": {"l": "p", "r": "1-p"}}, "known": {"A": 5}},
+     "p would have to be −3, and it lies between 0 and 1"),
+    ("return-infinite", {"first": [1], "repeated": [1], "gamma": "gamma", "known": "1/2"}, "γ would have to be −1"),
+    # 0 + α(1 + 2 − 0) = 10
+    ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": 2}, "alpha": "alpha",
+                 "gamma": 1, "known": 10}, "α would have to be 10/3"),
+    ("sample-average", {"values": {"A": 1}, "alpha": "alpha", "visits": [["A", 3], ["A", "x"]]}, "are left open"),
+    ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": "x"}, "alpha": 1,
+                 "gamma": 0, "known": 1}, "x falls out of the equation"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("family", "given", "says"), REFUSED)
+def test_what_no_number_does_is_refused(family: str, given: dict[str, Any], says: str) -> None:
+    with pytest.raises(FileError) as refused:
+        rldrill.read({"family": family, "given": given})
+    assert says in str(refused.value)
+
+
+def test_a_reward_may_be_called_p() -> None:
+    # p + 5/2 = 10 for an episode with the rewards p, 5 and γ = 1/2.
+    exercise = rldrill.read({"family": "return", "given": {"rewards": ["p", 5], "gamma": "1/2", "known": 10}})
+    assert str(exercise.answers()["a"]) == "15/2"
+
+
+def test_names_keep_their_capitals_in_a_sentence() -> None:
+    moves = [["a", "V", "end", 1, "x"], ["a", "w", "end", 1, 1], ["a", "B2", "end", 1, 0]]
+    given = {"mdp": {"transitions": moves, "terminal": ["end"]}, "gamma": "1/2", "values": {"a": 3}, "reward": 4}
+    exercise = rldrill.read({"family": "bellman-residual", "given": given})
+    written = " ".join(str(block) for part in exercise.parts for block in exercise.working(part.label))
+    assert "W and B2 are worth less" in written
