@@ -65,6 +65,11 @@ class AskingBack(ActionUpdates):
         return self
 
     @property
+    def moved(self) -> tuple[tuple[str, str], ...]:
+        """The pairs whose values the run changes."""
+        return self.updated
+
+    @property
     def asks_back(self) -> bool:
         """Whether what is left open is asked for."""
         return self.outcome is not None
@@ -214,7 +219,7 @@ def rival(given: AskingBack, outcome: Outcome, table: Rows) -> str | None:
     """An action of the state that is as good in the end, and is not updated, if there is one."""
     state, action, value = outcome
     others = (other for other, worth in table[state].items() if other != action and worth == value)
-    return next((other for other in others if (state, other) not in given.updated), None)
+    return next((other for other in others if (state, other) not in given.moved), None)
 
 
 def back_asked(given: AskingBack, outcome: Outcome, table: Rows, of: str = "Q") -> Part:

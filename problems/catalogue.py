@@ -162,6 +162,9 @@ def _place(name: str, wanted_is: str = "family") -> tuple[str, str]:
         for topic, names in known().items():
             if wanted in names:
                 return topic, wanted
+    if wanted in (topic.replace("_", "-") for topic in topics()):
+        within = ", ".join(chosen([wanted])[:5])
+        raise UsageError(f"{name[:40]!r} is a topic, not a family; name one of its families, such as {within}.")
     raise UsageError(
         f"There is no {wanted_is} {name[:40]!r}{_similar(wanted)}; 'rldrill list' and rldrill.families() tell."
     )

@@ -41,8 +41,8 @@ def exploration(epsilon: Scalar | None) -> str:
 
 def in_open(given: Givens) -> str:
     """What is added to a question whose answer is an expression in what is left open."""
-    left_open = given.parameters()
-    return f", in terms of ${shown(Parameter(left_open[0]))}$" if left_open else ""
+    left_open = [f"${shown(Parameter(letter))}$" for letter in given.parameters()]
+    return f", in terms of {joined(left_open)}" if left_open else ""
 
 
 def unknown(letter: str) -> str:

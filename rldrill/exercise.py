@@ -34,6 +34,7 @@ from rldrill.solutions.effort import points, seconds_of
 from rldrill.solutions.exact import NoSolution, TooLong
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.typesetting import typeset
+from rldrill.solutions.matrices import is_matrix, matrix
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
 from rldrill.solutions.work import Drawn, Elimination, Equality, Line, Note, Recalled, Result, Step
@@ -85,7 +86,7 @@ class Exercise(Struct, frozen=True, dict=True):
 
     def solve(self) -> Mapping[str, Any]:
         """The exact answer of every part, to calculate with: flint and sympy numbers, in tuples and dictionaries."""
-        return self.solution.answers
+        return {label: _copied(answer) for label, answer in self.solution.answers.items()}
 
     def answers(self) -> dict[str, Any]:
         """The exact answer of every part, to read: fractions, and text where a number is not rational.
@@ -208,6 +209,8 @@ class Exercise(Struct, frozen=True, dict=True):
         """
         from rldrill.diagnosis import followed
 
+        if not isinstance(lines, Iterable):
+            raise UsageError("The working is no text and no list of lines; give one of these.")
         texts = lines.splitlines() if isinstance(lines, str) else [str(line) for line in lines]
         return followed(self.diagnosing.search({}), texts)
 
@@ -319,6 +322,13 @@ class Exercise(Struct, frozen=True, dict=True):
         if answers:
             result["steps"] = [_step(line) for line in abridged(self.solution.lines) if isinstance(line, Step)]
         return result
+
+
+def _copied(answer: Any) -> Any:
+    """An answer that may be changed: a table or a matrix of its own."""
+    if isinstance(answer, dict):
+        return dict(answer)
+    return matrix(answer.tolist()) if is_matrix(answer) else answer
 
 
 def _seconds(lines: Sequence[Line], index: int) -> Fraction:

@@ -1,6 +1,6 @@
 """Grading: every part of a problem is judged, later ones also with the person's own answers to earlier ones."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -64,6 +64,15 @@ class Graded(Struct, frozen=True):
 
     def __getitem__(self, label: str) -> GradedPart:
         return {part.part: part for part in self.parts}[label]
+
+    def __iter__(self) -> Iterator[GradedPart]:
+        return iter(self.parts)
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    def __contains__(self, label: object) -> bool:
+        return any(part.part == label for part in self.parts)
 
 
 def grade(solution: Solution, texts: Mapping[str, str], worth: Mapping[str, int] | None = None) -> Graded:

@@ -4,7 +4,10 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from numbers import Rational
+from numbers import Number, Rational, Real
+
+from flint import fmpq
+from sympy import Expr
 
 from rldrill.problems.errors import UsageError
 
@@ -24,12 +27,22 @@ def typed(value: object, what: str) -> str:
     """
     if isinstance(value, str):
         return value
+    value = _plain(value)
     if isinstance(value, dict):
         return ", ".join(_pairs(value, what))
     if isinstance(value, list | tuple):
         entries = ", ".join("?" if item is None else _row(item, what) for item in value)
         return f"[{entries}]" if value else ""
     return _scalar(value, what)
+
+
+def _plain(value: object) -> object:
+    """Arrays and series of other libraries as lists and tables."""
+    if hasattr(value, "to_dict"):  # pandas
+        return value.to_dict()
+    if hasattr(value, "tolist") and not isinstance(value, Number):  # numpy's, and flint's
+        return value.tolist()
+    return value
 
 
 def _pairs(table: Mapping[object, object], what: str) -> Iterator[str]:
@@ -42,6 +55,7 @@ def _pairs(table: Mapping[object, object], what: str) -> Iterator[str]:
 
 
 def _row(value: object, what: str) -> str:
+    value = _plain(value)
     if isinstance(value, list | tuple):
         return f"[{', '.join('?' if item is None else _scalar(item, what) for item in value)}]"
     return _scalar(value, what)
@@ -56,13 +70,19 @@ def _scalar(value: object, what: str) -> str:
         case str():
             whole = value[:1] == "(" and value[-1:] == ")"
             return f"({value})" if _PARTING.search(value) and not whole else value  # it must not be read as several
+        case fmpq():
+            return f"{value.p}/{value.q}"
+        case Expr():
+            return str(value)
         case Rational():
             try:
                 return str(value)
             except ValueError:
                 raise UsageError(f"{what} has more digits than anybody writes; give a shorter number.") from None
-        case float() | Decimal() if math.isfinite(value):
-            return float.__repr__(value) if isinstance(value, float) else str(value)
+        case float() if math.isfinite(value):
+            return float.__repr__(value)
+        case Real() | Decimal() if math.isfinite(value):  # among them numpy's, of 32 bits
+            return str(value)
         case list() | tuple() | dict():
             raise UsageError(f"{what} nests too deeply; write numbers, a list, a list of rows or a table.")
         case _:

@@ -7,7 +7,7 @@ from rldrill.problems.exact import Parameter, Scalar, needed, shown
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
-from rldrill.solutions.exact import NoSolution, Value, exact, parameters, to_sympy, value_at
+from rldrill.solutions.exact import ONE, NoSolution, Value, exact, parameters, to_sympy, value_at
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.found import found_line
@@ -41,7 +41,9 @@ def tried(given: Given, outcome: Callable[[Given], float]) -> float:
 
 def reading(letter: Value) -> Callable[[Scalar], Value]:
     """What reads given numbers where the letter left open has this value."""
-    return lambda number: letter if isinstance(number, Parameter) else exact(number)
+    return lambda number: (
+        exact(number) if not isinstance(number, Parameter) else ONE - letter if number.complement else letter
+    )
 
 
 def with_letter(given: Given, number: Fraction) -> Given:

@@ -192,7 +192,12 @@ class Elimination(Struct, frozen=True):
     def lines(self) -> "Iterator[Note | Equality]":
         """The lines of it."""
         terms = {key: _terms(step) for key, step in zip(self.names, self.steps, strict=False)}
-        for line in elimination(self.names, self.equations, terms):
+        try:
+            lines = list(elimination(self.names, self.equations, terms))
+        except ZeroDivisionError:  # an unknown falls out of its own equation
+            together = zip(self.names.values(), self.values, strict=True)
+            lines = ["Together these equations give:", *((name, (value,)) for name, value in together)]
+        for line in lines:
             yield Note(line) if isinstance(line, str) else Equality(*line)
 
 

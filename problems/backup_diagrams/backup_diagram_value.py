@@ -92,7 +92,11 @@ class Given(Reversible):
     @property
     def inner(self) -> tuple[str, ...]:
         """The states below the root that lead on, those farthest down first."""
-        below = [state for state in self.dynamics.states if state != self.root[0]]
+        reached, more = set[str](), {row.next for row in self.dynamics.outcomes[self.root]}
+        while more:
+            reached |= more
+            more = {row.next for row in self.dynamics.transitions if row.state in more} - reached
+        below = [state for state in self.dynamics.states if state in reached]
         return tuple(sorted(below, key=lambda state: max(self._depths(state, 0))))
 
     @property

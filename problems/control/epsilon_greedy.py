@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, OpenProbability, Parameter, Probability, shown
+from rldrill.problems.exact import Exact, OpenShare, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
@@ -35,7 +35,7 @@ class Given(Givens):
 
     state: Name = Field(default="s", description="The name of the state.")
     values: dict[Name, Exact] = Field(min_length=2, max_length=50, description="The value of every action.")
-    epsilon: OpenProbability = Field(description="The probability to explore.")
+    epsilon: OpenShare = Field(description="The probability to explore.")
     valued: bool = Field(
         default=False, description="Whether the value of the state under the policy is asked for, too."
     )

@@ -7,7 +7,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from rldrill.problems.asking_back import BackRun, Worth, draw_back, draw_forward, pairs_asked, updates_of
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import OpenProbability, Parameter, dot
+from rldrill.problems.exact import OpenShare, Parameter, dot
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import PolicyField, check_chances, check_keys, policy_table
@@ -49,7 +49,7 @@ class FixedPolicy(BackRun):
 class EpsilonGreedy(BackRun):
     """A run, the action values before it, α and γ; and the ε with which the policy chooses ε-greedily."""
 
-    epsilon: OpenProbability = Field(
+    epsilon: OpenShare = Field(
         description="The probability with which the ε-greedy policy explores; instead of policy."
     )
 

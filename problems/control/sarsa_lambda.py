@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.asking_back import BackRun, Outcome, back_asked, draw_rows
 from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
+from rldrill.problems.exact import Exact, OpenShare, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Named, check_keys
@@ -31,7 +31,7 @@ class Given(BackRun):
     """A run with all its actions, the action values before it, α, γ and λ; traces from before it, if there are any."""
 
     trajectory: ShortRun = Field(description="What the agent did.")
-    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
+    lam: OpenShare = Field(description="The decay of the traces, besides the discount.")
     traces: Named[Named[Exact]] | None = Field(
         default=None, description="The traces before the run; all 0 without them."
     )
@@ -60,6 +60,11 @@ class Given(BackRun):
         """The pairs that have a trace after the run: those visited, and those that had one before."""
         before = [(state, action) for state, row in (self.traces or {}).items() for action in row if row[action]]
         return tuple(dict.fromkeys((*self.updated, *before)))
+
+    @property
+    def moved(self) -> tuple[tuple[str, str], ...]:
+        """The same: every pair with a trace learns."""
+        return self.eligible
 
 
 #: α, γ and λ whose product is a simple number; different ones, or an exchange of two would go unnoticed.

@@ -7,7 +7,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, OpenProbability, Parameter, Probability
+from rldrill.problems.exact import Exact, OpenShare, Parameter, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
@@ -84,7 +84,7 @@ class Run(Givens):
 
     trajectory: Trajectory = Field(description="What the agent did.")
     values: Named[Exact] = Field(description="The value of every state.")
-    lam: OpenProbability = Field(description="How much later TD errors count (GAE).")
+    lam: OpenShare = Field(description="How much later TD errors count (GAE).")
 
     @model_validator(mode="after")
     def _valued(self) -> Self:

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, OpenProbability, Parameter, shown
+from rldrill.problems.exact import Discount, OpenShare, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name
@@ -33,7 +33,7 @@ class Given(Reversible):
         min_length=1, max_length=301, description="The states visited at the times 0, 1, and so on."
     )
     gamma: Discount
-    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
+    lam: OpenShare = Field(description="The decay of the traces, besides the discount.")
     asked: tuple[int, ...] = Field(
         min_length=1, max_length=26, description="The times at which the traces are asked for."
     )

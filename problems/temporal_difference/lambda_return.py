@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discounts, Open, OpenProbability, Parameter, shown
+from rldrill.problems.exact import Discounts, Open, OpenShare, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Named, values_table
@@ -33,7 +33,7 @@ class Given(Reversible):
     trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
     values: Named[Open] = Field(description="The current value of every state.")
     gamma: Discounts
-    lam: OpenProbability = Field(description="How much later returns count.")
+    lam: OpenShare = Field(description="How much later returns count.")
     time: int = Field(default=0, ge=0, description="The time from which the return is asked for.", examples=[1])
 
     @model_validator(mode="after")

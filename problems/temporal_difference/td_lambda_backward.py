@@ -6,7 +6,7 @@ from pydantic import Field
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import OpenProbability, Parameter
+from rldrill.problems.exact import OpenShare, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import values_table
@@ -39,7 +39,7 @@ class Given(ValueRun):
     """
 
     trajectory: ShortRun = Field(description="What the agent did.")
-    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
+    lam: OpenShare = Field(description="The decay of the traces, besides the discount.")
     replacing: Replacing = False
 
 

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import OpenProbability, Parameter
+from rldrill.problems.exact import OpenShare, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
@@ -37,7 +37,7 @@ class Given(ValueRun):
     """
 
     trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
-    lam: OpenProbability = Field(description="How much later returns count.")
+    lam: OpenShare = Field(description="How much later returns count.")
     asked: tuple[int, ...] = Field(min_length=1, max_length=100, description="The times whose states are updated.")
 
     @model_validator(mode="after")

@@ -1,10 +1,13 @@
 """One look ahead with every action, from the optimal values."""
 
+from collections.abc import Mapping
 from typing import Any
+
+from flint import fmpq
 
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact, parameters, told
+from rldrill.solutions.exact import NoSolution, Value, exact, parameters, told
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
@@ -51,10 +54,19 @@ def solve(given: Given, work: Work) -> None:
         greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
     if given.gamma == 1:
         best = optimum(given.mdp, given.gamma)
+        if given.missing is None:
+            _check(given, best.values)
         best.tell(work)
         greedy = best.among(greedy)
     work.say(f"So these actions are optimal: {taken(greedy)}.")
     work.answer(greedy)
+
+
+def _check(given: Given, values: Mapping[str, fmpq]) -> None:
+    """Refuse what only solves the equation: without a discount it has other solutions than the optimal values."""
+    for state, value in given.values.items():
+        if exact(value) != values[state]:
+            raise NoSolution(f"with γ = 1 the optimal value of {state!r} is {values[state]}; give it exactly in values")
 
 
 def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tuple[Value, dict[tuple[str, str], Value]]:

@@ -50,7 +50,8 @@ def _trap(given: Given) -> Loop | None:
     if not loops:
         return None
     values = _values(given, Work(), evaluated)
-    return next((loop for loop in loops if any(sign(values[state]) > 0 for state in loop.actions)), None)
+    lost = (loop for loop in loops if sign(loop.gain) <= 0)  # one that pays earns without bound
+    return next((loop for loop in lost if any(sign(values[state]) > 0 for state in loop.actions)), None)
 
 
 def _gaps(given: Given, work: Work, evaluation: Evaluation = evaluated) -> tuple[int, ...]:

@@ -69,7 +69,7 @@ def _chances(given: Given, work: Work) -> Chances:
 
 def _others(given: Given, work: Work, present: tuple[str, ...]) -> Chances:
     """The probabilities of the other next states in these present states, but for the last: it has the rest to 1."""
-    *others, _ = (after for after in given.outcomes if after != given.asked)
+    others = [after for after in given.outcomes if after != given.asked][:-1]
     histories = [history for history in given.histories if history[1] in present]
     return {(*h, after): _probability(given, work, h, after) for h in histories for after in others}
 

@@ -16,7 +16,20 @@ STEPS = {
     "trajectory": {"states": ["A", "B", "C"], "rewards": [1, 2]}, "values": {"A": 1, "B": 2, "C": 4},
     "gamma": ["gamma", "1/2"], "asked": [[0, 1], [0, 2]], "known": 2,
 }  # fmt: skip
+#: Waiting pays nothing and puts off the end, which pays 2/3; any larger number solves the equation, too.
+WAIT = {
+    "mdp": {"transitions": [["A", "stay", "A", 1, 0], ["A", "go", "end", 1, "2/3"]], "terminal": ["end"]},
+    "gamma": 1,
+}
+TRACES = {
+    "trajectory": RUN, "values": {"A": {"l": 0, "r": 1}, "B": {"l": 3, "r": 2}}, "alpha": "alpha", "gamma": 1, "lam": 1,
+    "traces": {"A": {"r": 1}}, "outcome": ["A", "l", 1],
+}  # fmt: skip
 ANSWERED = [
+    # 0 + α·(1 + 2 − 0) = 1 after the first update, and δ₁ = 0.
+    ("sarsa-lambda", TRACES, {"a": "1/3"}),
+    # A next state alone has all of the probability.
+    ("markov-property", {"table": [["A", "A", "B", 1], ["B", "A", "B", 2]], "asked": "B"}, {"b": "yes"}),
     # x + 1/2 = 3
     ("return", {"rewards": ["x", 1], "gamma": ["1/2", "1/2"], "known": 3}, {"a": "5/2"}),
     # Q₂(B, r) = 1 + α(2 − 1); the first transition updates Q₁ alone.
@@ -33,7 +46,9 @@ ANSWERED = [
 @pytest.mark.parametrize(("family", "given", "answers"), ANSWERED)
 def test_what_is_asked_back_by_hand(family: str, given: dict[str, Any], answers: dict[str, str]) -> None:
     exercise = rldrill.read({"family": family, "given": given})
-    assert {label: str(answer) for label, answer in exercise.answers().items()} == answers
+    assert {label: str(answer) for label, answer in exercise.answers().items()} | answers == {
+        label: str(answer) for label, answer in exercise.answers().items()
+    }
 
 
 REFUSED = [
@@ -46,6 +61,12 @@ REFUSED = [
     # 0 + α(1 + 2 − 0) = 10
     ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": 2}, "alpha": "alpha",
                  "gamma": 1, "known": 10}, "α would have to be 10/3"),
+    ("epsilon-greedy", {"state": "s", "epsilon": "1-epsilon", "values": {"l": 1, "r": 0}},
+     "'1-epsilon' is one minus what is asked for; leave epsilon open"),
+    ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": 2}, "alpha": "1-alpha",
+                 "gamma": 1, "known": 1}, "'1-alpha' is one minus"),
+    ("optimal-policy-from-v", WAIT | {"values": {"A": "0.67"}}, "the optimal value of 'A' is 2/3; give it exactly"),
+    ("optimal-policy-from-v", WAIT | {"values": {"A": 5}}, "the optimal value of 'A' is 2/3; give it exactly"),
     ("sample-average", {"values": {"A": 1}, "alpha": "alpha", "visits": [["A", 3], ["A", "x"]]}, "are left open"),
     ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": "x"}, "alpha": 1,
                  "gamma": 0, "known": 1}, "x falls out of the equation"),
@@ -71,3 +92,29 @@ def test_names_keep_their_capitals_in_a_sentence() -> None:
     exercise = rldrill.read({"family": "bellman-residual", "given": given})
     written = " ".join(str(block) for part in exercise.parts for block in exercise.working(part.label))
     assert "W and B2 are worth less" in written
+
+
+def test_a_rival_is_no_pair_that_a_trace_from_before_moves() -> None:
+    (part,) = rldrill.read({"family": "sarsa-lambda", "given": TRACES}).parts
+    assert "What is the step size" in part.ask  # Q(A, r), too, is 1 before the run, and 2 after it
+
+
+def test_a_system_in_which_an_unknown_falls_out_is_solved_at_once() -> None:
+    moves = [["S0", "S0", 1, 1], ["S1", "S0", 1, 1], ["S2", "S1", 1, 1]]
+    exercise = rldrill.read({"family": "policy-value", "given": {"mdp": {"transitions": moves}, "average": True}})
+    assert "Together these equations give" in str(exercise.working("a"))
+    assert exercise.answers()["a"] == {"S0": 1, "S1": 0, "S2": 0}
+
+
+def test_a_loop_that_pays_is_no_trap() -> None:
+    # V = 5 by going; looping earns 1 and again 5: 6 ≥ 5, and without end.
+    mdp = {"transitions": [["A", "loop", "A", 1, 1], ["A", "go", "end", 1, 5]], "terminal": ["end"]}
+    given = {"mdp": mdp, "policy": {"A": "go"}, "other": {"A": "loop"}, "gamma": 1}
+    exercise = rldrill.read({"family": "policy-improvement-theorem", "given": given})
+    assert exercise.answers()["c"] == "yes"
+
+
+def test_two_letters_are_both_told() -> None:
+    mdp = {"transitions": [["A", "go", "B", 1, "x"], ["B", "go", "end", 1, 2]], "terminal": ["end"]}
+    exercise = rldrill.read({"family": "policy-value", "given": {"mdp": mdp, "gamma": "gamma"}})
+    assert "in terms of $x$ and $γ$" in exercise.parts[0].ask or "in terms of $γ$ and $x$" in exercise.parts[0].ask

@@ -1,0 +1,61 @@
+"""What one tries with an exercise in a notebook."""
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from flint import fmpq
+
+import rldrill
+from rldrill.problems.errors import UserError
+
+
+@pytest.fixture
+def exercise() -> rldrill.Exercise:
+    """TD(0): worn is 21/4 after the run."""
+    return rldrill.load("td-zero/1/62590")
+
+
+def test_what_is_handed_out_to_calculate_with_is_not_the_key_itself(exercise: rldrill.Exercise) -> None:
+    exercise.solve()["a"]["worn"] = fmpq(0)
+    assert exercise.check("21/4").accepted
+    assert not exercise.check("0").accepted
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [np.array([5.25]), np.float32(5.25), np.float64(5.25), np.array(5.25), fmpq(21, 4), sympy.Rational(21, 4),
+     sympy.Float("5.25"), {"worn": fmpq(21, 4)}, {"worn": np.float32(5.25)}, Fraction(21, 4), 5.25],
+    ids=repr,
+)  # fmt: skip
+def test_numbers_of_other_libraries_are_answers(exercise: rldrill.Exercise, answer: Any) -> None:
+    assert exercise.check(answer).accepted
+
+
+def test_roots_and_matrices_of_other_libraries_are_answers() -> None:
+    gain = rldrill.draw("lqr-gain", 2, 3)
+    (label, answer), *_ = gain.solve().items()
+    assert gain.check(answer, label).accepted
+    softmax = rldrill.read({"family": "return", "given": {"rewards": [3], "gamma": 1, "time": 0}})
+    assert softmax.check(sympy.sqrt(9) + 0 * sympy.E).accepted
+
+
+def test_a_graded_submission_is_gone_through_part_by_part() -> None:
+    graded = rldrill.load("return/1/430").grade({"a": "2", "b": "1"})
+    assert [part.part for part in graded] == ["a", "b"]
+    assert len(graded) == 2
+    assert "a" in graded
+    assert "c" not in graded
+    assert graded["a"].accepted
+
+
+def test_a_topic_is_no_family() -> None:
+    with pytest.raises(UserError, match="'bellman' is a topic, not a family; name one of its families, such as"):
+        rldrill.draw("bellman")
+
+
+def test_a_working_that_is_none_is_told(exercise: rldrill.Exercise) -> None:
+    with pytest.raises(UserError, match="The working is no text and no list of lines"):
+        exercise.follow(3)  # type: ignore[arg-type]
