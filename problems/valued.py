@@ -30,7 +30,7 @@ UNITS = {Fraction(1, 2): 2, Fraction(2, 3): 3, Fraction(4, 5): 5, Fraction(9, 10
 _ATTEMPTS = 20
 _LARGEST_REWARD = 12
 #: Books print optimal values to two or three digits.
-_ROUNDING = Fraction(1, 100)
+ROUNDING = Fraction(1, 100)
 
 
 class Valued(NamedTuple):
@@ -257,7 +257,7 @@ def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma:
     """
     for state, actions in model.actions.items():
         best = max(worth(model, (state, action), values, gamma) for action in actions)
-        if abs(best - values[state]) > _ROUNDING * max(Fraction(1), abs(best)):
+        if abs(best - values[state]) > ROUNDING * max(Fraction(1), abs(best)):
             raise ValueError(
                 f"values: {state!r} is given as {values[state]}, but its best action is worth {best}; correct it"
             )

@@ -281,7 +281,10 @@ def _rank(term: sympy.Expr, letters: tuple[sympy.Symbol, ...]) -> tuple[int, obj
     base, exponent = term.as_coeff_Mul()[1].as_base_exp()
     if base in letters and exponent.is_Integer and exponent > 0:  # a term of a polynomial, of which there may be many
         return int(exponent), sympy.default_sort_key(term)
-    degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else 99
+    try:
+        degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else 99
+    except sympy.polys.polyerrors.GeneratorsNeeded:  # a quotient in which what stands in their place cancels
+        degree = 0
     return int(degree), sympy.default_sort_key(term)
 
 

@@ -11,6 +11,11 @@ from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.matrices import AnyMatrix, identity, matrix
 
 _BITS = 200
+_NO_MATTER = "some action costs nothing and changes nothing that does, so no single one is the best"
+#: What is smaller has come to rest.
+_AT_REST = fmpq(1, 2 ** (_BITS - 40))
+#: So often a matrix is squared that tells whether a state comes to rest: some 10⁹ steps.
+_SQUARINGS = 30
 _DOUBLINGS = 40
 
 
@@ -62,7 +67,7 @@ def stationary(regulator: Regulator) -> AnyMatrix:
         if (uncrossed := priced.uncrossed()) is not None:
             return _checked(regulator, charged + _doubled(uncrossed))
         charged, priced = charged + priced.Q, priced.charged_ahead()
-    raise NoSolution("some action costs nothing and changes nothing that does, so no single one is the best")
+    raise NoSolution(_NO_MATTER)
 
 
 def _doubled(regulator: Regulator) -> AnyMatrix:
@@ -79,7 +84,7 @@ def _doubled(regulator: Regulator) -> AnyMatrix:
             step = F.transpose() * H * W * F * gamma
             F, G, H = map(_short, (F * W * F * gamma, G + F * W * G * F.transpose() * gamma, H + step))
             gamma = fmpq(1)
-            if _largest(step) < fmpq(1, 2 ** (_BITS - 40)):
+            if _largest(step) < _AT_REST:
                 return H
             if _largest(H) > 2**_BITS:
                 break
@@ -89,13 +94,21 @@ def _doubled(regulator: Regulator) -> AnyMatrix:
 
 
 def _checked(regulator: Regulator, S: AnyMatrix) -> AnyMatrix:
-    closed = regulator.A - regulator.B * regulator.gain(S)
+    try:
+        closed = regulator.A - regulator.B * regulator.gain(S)
+    except ZeroDivisionError:
+        raise NoSolution(_NO_MATTER) from None
     closed = _short(closed * closed * regulator.gamma)
-    for _ in range(11):
+    for _ in range(_SQUARINGS):
+        if _largest(closed) < _AT_REST:
+            return S
+        if _largest(closed) > 2**_BITS:
+            break
         closed = _short(closed * closed)
-    if _largest(closed) >= 1:
-        raise NoSolution("no action is worth its price, so the system is left to itself and does not come to rest")
-    return S
+    raise NoSolution(
+        "under the policy that costs least the state does not come to rest: what it does costs nothing there, or no "
+        "action reaches it"
+    )
 
 
 def _short(value: AnyMatrix) -> AnyMatrix:

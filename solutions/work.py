@@ -11,11 +11,12 @@ from msgspec.structs import replace
 from sympy import Expr
 
 from rldrill.problems.document import Equation
+from rldrill.problems.exact import PARAMETERS
 from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row, signs
 from rldrill.problems.notations import LECTURE, Writing, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
+from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, told
 from rldrill.solutions.formula.collecting import collected_next
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
@@ -371,16 +372,18 @@ class Work:
         else:
             self.lines += (Note("Solving these equations:"), Result(tuple(names.values()), values))
 
-    def equate(self, letter: str, left: Any, right: Any) -> Value:
+    def equate(self, letter: str, left: Any, right: Any, *, share: bool = False, positive: bool = False) -> Value:
         """Solve an equation that is linear in one letter, in front of the reader; the letter's value.
 
         Args:
             letter: the letter, ``gamma``; the sides were worked out with ``generator("gamma")`` in its place.
             left: the one side, a value.
             right: the other side.
+            share: whether the letter lies between 0 and 1, whatever it is called.
+            positive: whether it is above 0.
 
         Raises:
-            NoSolution: every value solves the equation, or none.
+            NoSolution: every value solves the equation, or none, or one that the letter cannot have.
         """
         slope, constant = linear(left - right, letter)
         cleared = without_quotients(left, right, letter)
@@ -390,6 +393,9 @@ class Work:
             slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
         self.letters.append((letter, value))
+        if self.misconception is None and ((share and not 0 <= value <= 1) or (positive and value <= 0)):
+            between = "lies between 0 and 1" if share else "is above 0"
+            raise NoSolution(f"{PARAMETERS.get(letter, letter)} would have to be {told(value)}, and it {between}")
         unknown = generator(letter)
         self.lines.append(Equality(left, (right,)))
         if cleared:

@@ -66,6 +66,8 @@ class Given(Centred):
             check_line(self.centres)
         if not all(0 < value < 1 for value in self.known.values()):
             raise ValueError("known: a feature that tells how far away the state is lies between 0 and 1")
+        if self.theta and self.known:
+            raise ValueError("theta: a value is asked for where all features are worked out; leave known out")
         if self.theta and len(self.theta) != len(self.centres):
             raise ValueError(f"theta: {len(self.centres)} features need as many weights, not {len(self.theta)}")
         return self

@@ -67,6 +67,8 @@ class Given(Centred):
                 raise ValueError("sigma: the position can only be found where it is a number")
         if not all(value < 0 for value in self.logarithms.values()):
             raise ValueError("logarithms: a feature that tells how far away the state is lies between 0 and 1")
+        if self.theta and self.logarithms:
+            raise ValueError("theta: a value is asked for where all features are worked out; leave logarithms out")
         if self.theta and len(self.theta) != len(self.centres):
             raise ValueError(f"theta: {len(self.centres)} features need as many weights, not {len(self.theta)}")
         return self

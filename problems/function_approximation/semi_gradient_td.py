@@ -156,7 +156,7 @@ def question(given: Given) -> Question:
         method = "Semi-gradient TD(0)"
         model = "Values are estimated as $V̂(s) = θ^⊤ φ(s)$, with these features:"
     ends: tuple[Block, ...] = ()
-    if run.terminal:
+    if run.states[-1] in run.terminal:
         ends = (Paragraph(f"The episode ends in the terminal state {run.states[-1]}, whose value is always $0$."),)
     when = "after the transition" if steps == 1 else "after every transition"
     blocks = (

@@ -128,12 +128,14 @@ def question(given: Given) -> Question:
     )  # fmt: skip
     told = f"The actions are $a_t = −L_t s_t$ at all these times, also at the last, $T = {last}$:"
     blocks: tuple[Block, ...] = (*situation(given), Paragraph(told))
-    total = f"What is the total reward $J = {sum_}$"
+    total, all_ = f"What is the total reward $J = {sum_}$", f"The total reward is $J = {sum_} ="
     if not given.plain:
         blocks = (*costs(given, NOTATIONS["value"]), Paragraph("Before $T$ the action is $a_t = −L_t s_t$:"))
-        total = f"What is the total $J$ of all rewards{'' if given.gamma == 1 else ', discounted'}"
+        discounted = "" if given.gamma == 1 else ", discounted"
+        total = f"What is the total $J$ of all rewards{discounted}"
+        all_ = f"The total of all rewards{discounted}{',' * bool(discounted)} is $J ="
     if given.total is not None:
-        found = f"The total reward is $J = {sum_} = {shown(given.total)}$. What is the price $ρ$ of the action?"
+        found = f"{all_} {shown(given.total)}$. What is the price $ρ$ of the action?"
         first = Part("What is the first reward $r(s_0, a_0)$ then?", Number())
         return Question((*blocks, *gains), (Part(found, Number()), first))
     return Question(

@@ -39,7 +39,7 @@ def solve(given: Given, work: Work) -> None:
         state, letter = given.outcome.state, given.left_open[0]
         known: dict[str, Any] = {"z": given.measurements[0], "hypotheses": hypotheses, "label": labels[1]}
         after = work.step(BAYES, h=state, p=belief, likelihood=likelihood, **known)
-        found = work.answer(work.equate(letter, after, exact(given.outcome.probability)))
+        found = work.answer(work.equate(letter, after, exact(given.outcome.probability), share=True))
         belief, likelihood = knowns.settled(belief, found), knowns.settled(likelihood, found)
         if len(readings) > 1:
             belief = _first(given, work, letter, {**known, "p": belief, "likelihood": likelihood})

@@ -74,7 +74,7 @@ def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) ->
     known["covariance_bar"] = {1: work.step(KALMAN_MOVE_COVARIANCE, **known)}
     known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
     after = work.step(KALMAN_COVARIANCE, **known)[0, 0]
-    found = work.answer(work.equate("w", after, variance))
+    found = work.answer(work.equate("w", after, variance, positive=True))
     known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
     work.say(f"With $w = {to_sympy(found)}$ the gain is:")
     known["Kt"] = {1: matrix([[put_in_found(work, KALMAN_GAIN, "w", known["Kt"][1][0, 0], found, t=1)]])}

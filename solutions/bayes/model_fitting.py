@@ -99,7 +99,7 @@ def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
     )
     noise, mean, variance = exact(prior.noise), exact(prior.mean), exact(prior.variance)
     peak = work.step(with_prior, sigma2=noise, prior_mean=mean, prior_variance=variance, **known)
-    work.answer(peak if prior.estimate is None else work.equate("w", peak, exact(prior.estimate)))
+    work.answer(peak if prior.estimate is None else work.equate("w", peak, exact(prior.estimate), positive=True))
 
 
 def _line(line: Line, work: Work, with_prior: Formula) -> None:
@@ -124,7 +124,7 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
     )
     slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)
     if prior.estimate is not None:
-        work.answer(work.equate("w", slope, exact(prior.estimate)))
+        work.answer(work.equate("w", slope, exact(prior.estimate), positive=True))
     else:
         work.answer((slope, work.step(line_intercept_map(), slope_map=slope, **known)))
 

@@ -21,7 +21,7 @@ def solve(given: Given, work: Work) -> None:
     arm = arms.known(given)
     if given.x is not None:
         arm["phi"] = arms.link_angles(work, arm)
-        length = work.answer(work.equate("w", work.step(FORWARD_X, **arm), exact(given.x)))
+        length = work.answer(work.equate("w", work.step(FORWARD_X, **arm), exact(given.x), positive=True))
         arm["length"] = settled(arm["length"], length)
         work.answer(work.step(FORWARD_Y, **arm))
         return

@@ -49,7 +49,7 @@ def solve(given: Given, work: Work) -> None:
     after = work.step(MAML_OUTER, **known)
     if given.after is not None:
         work.say(f"After the step $θ$ is ${shown(given.after)}$:")
-        after = work.equate("beta", after, exact(given.after))
+        after = work.equate("beta", after, exact(given.after), positive=True)
     work.answer(after)
     if given.first_order:
         work.answer(work.step(MAML_FIRST_ORDER, **known))

@@ -104,9 +104,9 @@ class Recorder(Work):
             self._take_down(start + place, solution[_key(case)], known, equation=True)
         return solution
 
-    def equate(self, letter: str, left: Any, right: Any) -> Any:
+    def equate(self, letter: str, left: Any, right: Any, **of: Any) -> Any:
         """As in any working."""
-        value = super().equate(letter, left, right)
+        value = super().equate(letter, left, right, **of)
         self.equated.append(Equated(letter, left, right, value))
         return value
 
@@ -241,8 +241,8 @@ class Replay(Work):
             self.number += 1
         return solution
 
-    def equate(self, letter: str, left: Any, right: Any) -> Any:
-        """The unknown, as somebody gets it who errs in solving the equation."""
+    def equate(self, letter: str, left: Any, right: Any, **_of: Any) -> Any:
+        """The unknown, as somebody gets it who errs in solving the equation, whatever it may be."""
         number, self.solved = self.solved, self.solved + 1
         return self.change.equated[number] if number in self.change.equated else super().equate(letter, left, right)
 

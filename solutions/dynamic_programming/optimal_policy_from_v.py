@@ -6,8 +6,9 @@ from typing import Any
 from flint import fmpq
 
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
+from rldrill.problems.valued import ROUNDING
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import NoSolution, Value, exact, parameters, told
+from rldrill.solutions.exact import ONE, NoSolution, Value, exact, parameters, told
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
@@ -58,6 +59,9 @@ def solve(given: Given, work: Work) -> None:
             _check(given, best.values)
         best.tell(work)
         greedy = best.among(greedy)
+        if given.missing is None:  # values that are rounded may hide the best action
+            greedy = {state: actions if {*actions} <= {*best.best[state]} else best.best[state]
+                      for state, actions in greedy.items()}  # fmt: skip
     work.say(f"So these actions are optimal: {taken(greedy)}.")
     work.answer(greedy)
 
@@ -65,8 +69,10 @@ def solve(given: Given, work: Work) -> None:
 def _check(given: Given, values: Mapping[str, fmpq]) -> None:
     """Refuse what only solves the equation: without a discount it has other solutions than the optimal values."""
     for state, value in given.values.items():
-        if exact(value) != values[state]:
-            raise NoSolution(f"with γ = 1 the optimal value of {state!r} is {values[state]}; give it exactly in values")
+        if abs(exact(value) - values[state]) > exact(ROUNDING) * max(ONE, abs(values[state])):
+            raise NoSolution(
+                f"with γ = 1 the optimal value of {state!r} is {values[state]}, not {value}; correct it in values"
+            )
 
 
 def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tuple[Value, dict[tuple[str, str], Value]]:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from rldrill.problems.exact import Parameter
 from rldrill.problems.function_approximation.linear_value import Bumps, Given
 from rldrill.solutions.centres import distances, measured
-from rldrill.solutions.exact import ZERO, Value, exact, told
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign, told
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.found import put_in_found
@@ -84,7 +84,10 @@ def _state_sought(given: Given, bumps: Bumps, work: Work, places: Callable[[Give
     work.say("Between the centres the distances are $x − c_1$ and $c_2 − x$, neither greater than $b$:")
     both = _values(given, work, _inside(work, x - exact(left), exact(right) - x, width), places, given.actions)
     work.say("The two are equal where")
-    state = work.answer(work.equate("x", *both.values()))
+    state = work.equate("x", *both.values())
+    if sign(state - exact(left)) < 0 or sign(exact(right) - state) < 0:
+        raise NoSolution("between the centres one action is always better than the other; change theta")
+    work.answer(state)
     work.answer(_at(work, given.actions[0], both, state))
     work.say(f"At $c_1$, where $x = {told(exact(left))}$:")
     _greedy(work, {("s", a): _at(work, a, both, exact(left)) for a in given.actions}, given.actions)

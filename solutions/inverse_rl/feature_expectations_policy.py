@@ -63,7 +63,7 @@ def solve(given: Given, work: Work) -> None:
         work.answer(total if len(total) > 1 else total[0])
     else:
         work.say(f"This must equal the expert's ${shown(given.matched)}$:")
-        work.answer(work.equate(given.asked_for, total[0], exact(given.matched)))
+        work.answer(work.equate(given.asked_for, total[0], exact(given.matched), share=True))
 
 
 def _endless(given: Given, motion: Mapping[Any, Value], known: Mapping[str, Any]) -> list[Loop]:

@@ -41,7 +41,7 @@ def solve(given: Given, work: Work) -> None:
     if given.action is not None:
         gain = _gain(lqr, work, 0, Pt=P, **known)
         action = work.step(lqr.action, t=0, Lt={0: gain}, St=start)
-        price = work.answer(work.equate("rho", action[0, 0], exact(given.action)))
+        price = work.answer(work.equate("rho", action[0, 0], exact(given.action), positive=True))
         priced = work.answer(linear_quadratic.with_price(work, lqr, gain, price))
         work.answer(work.step(lqr.riccati, t=0, Pt=P, Lt={0: priced}, **known))
         return

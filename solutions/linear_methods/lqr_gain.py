@@ -31,7 +31,7 @@ def solve(given: Given, work: Work) -> None:
     L = linear_quadratic.gain(work, lqr, **known)
     if given.action is not None:
         action = work.step(lqr.action, t=0, Lt={0: L}, St={0: start})
-        price = work.answer(work.equate("rho", action[0, 0], exact(given.action)))
+        price = work.answer(work.equate("rho", action[0, 0], exact(given.action), positive=True))
         work.answer(linear_quadratic.with_price(work, lqr, L, price))
         return
     L = work.answer(L)

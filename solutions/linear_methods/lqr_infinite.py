@@ -122,13 +122,13 @@ def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator)
         work.say(f"The formula of the gain does not contain $ρ$, and gives ${P}$:")
         value = work.answer(work.equate(P, best(unknown), gain))
         work.say(f"Now the equation of ${P}$ gives the price:")
-        work.answer(work.equate("rho", riccati(value), value))
+        work.answer(work.equate("rho", riccati(value), value, positive=True))
     else:
         work.say(f"The equation of ${P}$ does not contain $ρ$, and gives ${P}$:")
         slope, constant = linear(riccati(unknown), P)
         value = work.answer(work.equate(P, unknown * (1 - slope), constant))
         work.say("Now the formula of the gain gives the price:")
-        work.answer(work.equate("rho", best(value), gain))
+        work.answer(work.equate("rho", best(value), gain, positive=True))
 
 
 def _single(entry: Value) -> AnyMatrix:

@@ -58,7 +58,7 @@ def solve(given: Given, work: Work) -> None:
     if given.total is None:
         work.answer(J)
         return
-    price = work.answer(work.equate("rho", J, exact(given.total)))
+    price = work.answer(work.equate("rho", J, exact(given.total), positive=True))
     work.say(f"With $ρ = {to_sympy(price)}$ the first reward is:")
     first = with_found(rewards[0], price)
     put_in = with_number([[rewards[0]]], "rho", price)

@@ -189,7 +189,7 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
     held = _at_the_bound(work, known, one)
     mean = work.step(PPO_BATCH, L_t={**known["unclipped"], one: held}, **known)
     epsilon = work.equate("epsilon", mean, objective)
-    if sign(epsilon) <= 0 or sign(absolute(known["rho"][one] - 1) - epsilon) < 0:
+    if sign(epsilon) <= 0 or sign(absolute(known["rho"][one] - 1) - epsilon) <= 0:
         raise NoSolution("no ε gives this objective")
     edge, side = (1 + epsilon, "above $1 + ε") if above else (1 - epsilon, "below $1 − ε")
     ratio = told(known["rho"][one])

@@ -39,7 +39,7 @@ def _from_component(given: Given, component: Component, work: Work, known: Mappi
     opened = {(action, "s"): chance for action, chance in knowns.values(given.policy or {}).items()}
     entries = tuple(score(work, {**known, "pi": opened}, "s", given.action or "", tuple(given.features)))
     work.say(f"The component that belongs to $θ_{{{component.number}}}$ is known:")
-    p = work.answer(work.equate("p", entries[component.number - 1], exact(component.value)))
+    p = work.answer(work.equate("p", entries[component.number - 1], exact(component.value), share=True))
     found = {action: value_at(chance, p) for (action, _), chance in opened.items()}
     for action, chance in found.items():
         in_letters = to_sympy(opened[action, "s"])

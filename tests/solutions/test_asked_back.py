@@ -28,6 +28,7 @@ TRACES = {
 ANSWERED = [
     # 0 + α·(1 + 2 − 0) = 1 after the first update, and δ₁ = 0.
     ("sarsa-lambda", TRACES, {"a": "1/3"}),
+    ("optimal-policy-from-v", WAIT | {"values": {"A": "0.67"}}, {"a": "{'A': 'go'}"}),  # rounded
     # A next state alone has all of the probability.
     ("markov-property", {"table": [["A", "A", "B", 1], ["B", "A", "B", 2]], "asked": "B"}, {"b": "yes"}),
     # x + 1/2 = 3
@@ -65,8 +66,7 @@ REFUSED = [
      "'1-epsilon' is one minus what is asked for; leave epsilon open"),
     ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": 2}, "alpha": "1-alpha",
                  "gamma": 1, "known": 1}, "'1-alpha' is one minus"),
-    ("optimal-policy-from-v", WAIT | {"values": {"A": "0.67"}}, "the optimal value of 'A' is 2/3; give it exactly"),
-    ("optimal-policy-from-v", WAIT | {"values": {"A": 5}}, "the optimal value of 'A' is 2/3; give it exactly"),
+    ("optimal-policy-from-v", WAIT | {"values": {"A": 5}}, "the optimal value of 'A' is 2/3, not 5; correct it"),
     ("sample-average", {"values": {"A": 1}, "alpha": "alpha", "visits": [["A", 3], ["A", "x"]]}, "are left open"),
     ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": "x"}, "alpha": 1,
                  "gamma": 0, "known": 1}, "x falls out of the equation"),
@@ -118,3 +118,47 @@ def test_two_letters_are_both_told() -> None:
     mdp = {"transitions": [["A", "go", "B", 1, "x"], ["B", "go", "end", 1, 2]], "terminal": ["end"]}
     exercise = rldrill.read({"family": "policy-value", "given": {"mdp": mdp, "gamma": "gamma"}})
     assert "in terms of $x$ and $γ$" in exercise.parts[0].ask or "in terms of $γ$ and $x$" in exercise.parts[0].ask
+
+
+LQR = {"A": 1, "B": 1, "Q": 1, "R": "rho", "start": 1}
+NO_SUCH = [
+    ("lqr-backward", LQR | {"horizon": 1, "action": 1}, "ρ would have to be −2, and it is above 0"),
+    ("forward-kinematics", {"lengths": ["w", 1], "angles": [0, "pi/2"], "x": -3}, "w would have to be −3"),
+    ("linear-value", {"theta": [1, 2, 5, 9], "actions": ["l", "r"], "bumps": {"centres": [[0], [2]], "width": 3}},
+     "between the centres one action is always better"),
+    # The sum of the states keeps its size, and B does not reach it.
+    ("lqr-infinite", {"A": [["1/2", "1/2"], ["1/2", "1/2"]], "B": [[1], [-1]], "Q": [[1, -1], [-1, 1]], "R": 1},
+     "the state does not come to rest"),
+    ("rbf", {"position": 1, "centres": [0, 2], "logarithms": {"1": "-1/2"}, "theta": [1, 2]}, "leave logarithms out"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("family", "given", "says"), NO_SUCH)
+def test_what_cannot_be_is_refused(family: str, given: dict[str, Any], says: str) -> None:
+    with pytest.raises(FileError) as refused:
+        rldrill.read({"family": family, "given": given})
+    assert says in str(refused.value)
+
+
+def test_a_stable_system_that_costs_nothing_is_left_alone() -> None:
+    # Its eigenvalues are 0.999 and 0.5.
+    given = {"A": [["999/1000", 1000], [0, "1/2"]], "B": [[0], [1]], "Q": [[0, 0], [0, 0]], "R": 1}
+    exercise = rldrill.read({"family": "lqr-infinite", "given": given})
+    assert exercise.answers()["b"] == ((0, 0),)
+
+
+def test_the_equation_that_is_asked_back_is_the_one_that_is_told() -> None:
+    # −1 − ρ/4 + ½·(−1/4) = −3: ρ = 15/2; that of the rewards without a discount, and with an action at T, would be 7.
+    exercise = rldrill.read(
+        {"family": "lqr-reward", "given": LQR | {"L": "1/2", "gamma": "1/2", "horizon": 1, "total": -3}}
+    )
+    assert str(exercise.answers()["a"]) == "15/2"
+    assert exercise.parts[0].ask.startswith("The total of all rewards, discounted, is $J = −3$")
+
+
+def test_an_episode_ends_in_a_terminal_state_alone() -> None:
+    run = {"states": ["a", "b"], "rewards": [1], "terminal": ["c"]}
+    given = {"trajectory": run, "features": {"a": [1, 0], "b": [0, 1]}, "theta": [1, 2], "alpha": "1/2", "gamma": 1}
+    exercise = rldrill.read({"family": "semi-gradient-td", "given": given})
+    assert "terminal" not in str(exercise.question())
+    assert exercise.answers()["a"] == (2,)  # 1 + 2 − 1
