@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from threading import Event, Thread
+from threading import Event, RLock, Thread
 from typing import Any
 
 from msgspec import Struct
@@ -157,6 +157,7 @@ class Diagnosing:
         self._outcomes: dict[tuple[str, str], Outcomes] = {}
         self._stop = Event()
         self._thread: Thread | None = None
+        self._one = RLock()  # of several threads that share an exercise one searches at a time
 
     def search(self, earlier: Mapping[str, Any]) -> Search:
         """The search that goes on from a person's own earlier answers."""
@@ -204,7 +205,8 @@ class Diagnosing:
             return verdict
         self.finish()
         clock = Clock()  # a verdict depends on none
-        found = explained(self.outcomes(label, {}), self._typed(label, text), clock, settled)
+        with self._one:
+            found = explained(self.outcomes(label, {}), self._typed(label, text), clock, settled)
         pairs = zip(found.causes, found.shares, strict=True)
         if sum(share for cause, share in pairs if cause.weight >= SURE_ENOUGH) < _SURE:
             return verdict
@@ -231,6 +233,10 @@ class Diagnosing:
 
         Of a working larger than any that is drawn only those that stated mistakes give: to find all takes too long.
         """
+        with self._one:
+            return self._wrong_answers(label, number)
+
+    def _wrong_answers(self, label: str, number: int) -> tuple["WrongAnswer", ...]:
         search, outcomes = self.search({}), self.outcomes(label, {})
         kind = answer_kind(outcomes.part.kind)
         found: dict[str, WrongAnswer] = {}
@@ -286,7 +292,8 @@ class Diagnosing:
         clock = Clock(seconds)
         gone_on = [earlier] if earlier and self.solution.following(earlier) else []  # from some nothing follows
         for carried in ({}, *gone_on):
-            found = explained(self.outcomes(label, carried), typed, clock, settled)
+            with self._one:
+                found = explained(self.outcomes(label, carried), typed, clock, settled)
             if found.causes:
                 return _told(found, self.search(carried).applications)
         return Diagnosis("unexplained", verdict.says)

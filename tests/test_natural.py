@@ -1,5 +1,6 @@
 """What one tries with an exercise in a notebook."""
 
+from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from typing import Any
 
@@ -59,3 +60,17 @@ def test_a_topic_is_no_family() -> None:
 def test_a_working_that_is_none_is_told(exercise: rldrill.Exercise) -> None:
     with pytest.raises(UserError, match="The working is no text and no list of lines"):
         exercise.follow(3)  # type: ignore[arg-type]
+
+
+def test_threads_share_an_exercise(exercise: rldrill.Exercise) -> None:
+    with ThreadPoolExecutor(8) as pool:
+        said = [*pool.map(lambda number: exercise.diagnose(f"{number}/7").sentence, range(40))]
+    alone = rldrill.load("td-zero/1/62590")
+    assert said == [alone.diagnose(f"{number}/7").sentence for number in range(40)]
+
+
+def test_a_power_of_nothing_is_no_answer_of_a_mistake() -> None:
+    given = {"start": {"A": 0}, "optimum": {"A": 1}, "gamma": 0, "sweeps": 1, "accuracy": 100}
+    exercise = rldrill.read({"family": "contraction", "given": given})
+    for part in exercise.parts:
+        exercise.check("17", part.label)

@@ -191,10 +191,17 @@ def _begun(blueprint: Path, saved: Path, seed: int | None) -> "Exam":
     from rldrill.exam.blueprint import read_blueprint
     from rldrill.exam.manifest import manifest, read_manifest, written
     from rldrill.exam.planning import plan
+    from rldrill.problems.errors import UsageError
     from rldrill.writing import begin
 
     if saved.exists():
-        return read_manifest(saved)
+        begun, asked = read_manifest(saved), read_blueprint(blueprint)
+        same = all(getattr(begun.head, name) == getattr(asked.head, name) for name in ("title", "course", "date"))
+        if not same or (seed is not None and seed != begun.seed):
+            raise UsageError(
+                f"{saved} holds another exam that was begun, {begun.head.title!r}; name another file with --answers."
+            )
+        return begun
     planned = plan(read_blueprint(blueprint).but(seed=seed, versions=1))
     return planned if begin(saved, written(manifest(planned))) else read_manifest(saved)
 

@@ -101,6 +101,8 @@ def command(
     from rldrill.problems.errors import UsageError
 
     other = format_of(output, format_)
+    if key and other is not None:
+        raise UsageError(f"--key prints the keys as PDF; of {other.ending} leave it out, or take --solutions inline.")
     changes: dict[str, Any] = {
         "paper": paper,
         "space": space,
@@ -126,7 +128,7 @@ def command(
         )
         if other is not None:
             exam = _drawn(blueprint, roster, secret_file)
-            practice = roster is None and not planned
+            practice = roster is None and not planned and solutions != "none"
             _print(_exported(exam, output or Path(stem), other, practice=practice, force=force), as_json=as_json)
             return
         written = _printed(blueprint, output or Path(f"{stem}.pdf"), roster, secret_file, only_keys=key, force=force)

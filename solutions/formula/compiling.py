@@ -192,3 +192,5 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
         return found[1](known)
     except LookupError as error:
         raise NotGiven(f"no value is given for {error.args[0]!r}, which the formula needs") from None
+    except ZeroDivisionError:  # 0 raised to a power below 0
+        raise DivisionError("it would divide by zero") from None

@@ -11,6 +11,7 @@ import pytest
 from msgspec.structs import replace
 from rich.console import Console
 
+from rldrill.commands.quiz import _begun
 from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.exam import Exam
 from rldrill.exam.manifest import manifest, read_manifest, written
@@ -410,3 +411,16 @@ def test_a_problem_of_ones_own_is_called_by_its_number(tmp_path: Path) -> None:
     again = Sitting(planned, planned.versions[0], sitting.path, START)
     again.resume()
     assert list(again.answers.values()) == ["7"]
+
+
+def test_another_blueprint_does_not_go_on_with_an_exam_that_was_begun(tmp_path: Path) -> None:
+    saved = tmp_path / "exam-answers.json"
+    for name, title in (("a", "Exam of A"), ("b", "Exam of B")):
+        text = f'title = "{title}"\n[[problems]]\nfamily = "return"\n'
+        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
+    begun = _begun(tmp_path / "a.toml", saved, None)
+    assert _begun(tmp_path / "a.toml", saved, None).versions == begun.versions
+    with pytest.raises(UsageError, match="holds another exam that was begun, 'Exam of A'; name another file"):
+        _begun(tmp_path / "b.toml", saved, None)
+    with pytest.raises(UsageError, match="holds another exam"):
+        _begun(tmp_path / "a.toml", saved, begun.seed + 1)
