@@ -151,6 +151,11 @@ def _ties(given: Given) -> bool:
     return False
 
 
+def _in_order(given: Given) -> dict[str, dict[str, Fraction]]:
+    """The second table with its actions in the order of the first: of tied ones the first counts in both."""
+    return {state: {action: given.second[state][action] for action in row} for state, row in given.values.items()}
+
+
 def question(given: Given) -> Question:
     """The run and both tables before it; the updated pairs of each table are a part."""
     steps = len(given.updates)
@@ -165,7 +170,7 @@ def question(given: Given) -> Question:
         *run_situation(
             given,
             action_values_table(given.values, "Q_1(s, a)"),
-            action_values_table(given.second, "Q_2(s, a)"),
+            action_values_table(_in_order(given), "Q_2(s, a)"),
         ),
         Paragraph(
             f"Double Q-learning updates one table after every transition, with the values that are current then. "

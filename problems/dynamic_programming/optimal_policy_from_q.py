@@ -157,7 +157,8 @@ def question(given: Given) -> Question:
         parts.append(Part(f"What {'is' if len(asked) == 1 else 'are'} {which}?", Values("Q^*", asked)))
     if given.tied:
         state, action = given.tied
-        parts.append(Part(f"What is the smallest $x$ with which {action} is optimal in {state}?", Number()))
+        letter = shown(Parameter(given.left_open[0]))
+        parts.append(Part(f"What is the smallest ${letter}$ with which {action} is optimal in {state}?", Number()))
         if others := {s: actions for s, actions in given.actions.items() if s != state}:
             parts.append(Part("Which action $π^*(s)$ is optimal in every other state?", Policy(others, "π^*")))
         return Question(blocks, tuple(parts))

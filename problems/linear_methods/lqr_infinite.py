@@ -1,6 +1,6 @@
 """The stationary value matrix, gain and closed loop of LQR over an infinite horizon."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import product
 from math import isqrt
@@ -218,12 +218,18 @@ def _circulant(total: Fraction, difference: Fraction) -> Rows:
     return ((diagonal_, beside), (beside, diagonal_))
 
 
+def _is_symmetric(matrix: Sequence[Sequence[Scalar]]) -> bool:
+    """Whether two robots can be exchanged in a matrix: it has the form [a b; b a]."""
+    return len(matrix) == 2 and matrix[0] == matrix[1][::-1]
+
+
 def question(given: Given) -> Question:
     """The matrices; P, the gain, and the closed loop."""
     n = len(given.A)
     x, u, *_, in_costs = given.notation
     named = (("A", given.A), ("B", given.B), ("Q", given.Q), ("R", given.R), *((("N", given.N),) if given.N else ()))
-    coupled = n == 2 and given.A[0] == given.A[1][::-1] and given.A[0][1] != 0
+    matrices = (given.A, given.B, given.Q, given.R, *((given.N,) if given.N else ()))
+    coupled = n == 2 and given.A[0][1] != 0 and all(map(_is_symmetric, matrices))
     story = "Two identical robots that are coupled symmetrically form a system. It" if coupled else "A system"
     cost = quadratic(given.notation, crossed=given.N is not None)
     earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"

@@ -61,10 +61,20 @@ def _coin(coin: Coin, work: Work, with_prior: Formula) -> None:
     _most_probable(
         work,
         "Likelihood times prior is proportional to $θ^{n_1} (1 − θ)^{n_0}·θ^{a − 1} (1 − θ)^{b − 1}$, that is "
-        f"$θ^{{{ones}}} (1 − θ)^{{{zeros}}}$. It is greatest where the derivative of its logarithm, "
-        f"${ones}/θ − {zeros}/(1 − θ)$, is $0$, so where ${_times(ones)}(1 − θ) = {_times(zeros)}θ$:",
+        f"$θ^{{{ones}}} (1 − θ)^{{{zeros}}}$. {_greatest(ones, zeros)}:",
     )
     work.answer(work.step(with_prior, **known))
+
+
+def _greatest(ones: str, zeros: str) -> str:
+    """Where θ^ones (1 − θ)^zeros is greatest, and why."""
+    if "0" in (ones, zeros):
+        goes, most = ("falls", 0) if ones == "0" else ("rises", 1)
+        return f"It {goes} all the way from $0$ to $1$, so it is greatest at $θ = {most}$"
+    return (
+        f"It is greatest where the derivative of its logarithm, ${ones}/θ − {zeros}/(1 − θ)$, is $0$, so where "
+        f"${_times(ones)}(1 − θ) = {_times(zeros)}θ$"
+    )
 
 
 def _times(factor: str) -> str:

@@ -5,6 +5,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from rldrill.problems.dynamic_programming.optimal_policy_from_q import Given
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.models import Dynamics
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
@@ -62,8 +63,9 @@ def _tie(given: Given, tied: tuple[str, str], work: Work, known: dict[str, Any],
         others.remove(best)
         best = largest(others)
     work.say(f"The best of the other actions in {state} is worth ${text_of(best)}$. Both are equal for:")
-    equal = work.equate("x", value, best)
-    work.say(f"What {action} is worth grows with $x$, so this is the smallest one.")
+    (letter,) = given.left_open
+    equal = work.equate(letter, value, best)
+    work.say(f"What {action} is worth grows with ${shown(Parameter(letter))}$, so this is the smallest one.")
     work.answer(equal)
 
 

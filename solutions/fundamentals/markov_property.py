@@ -56,7 +56,7 @@ def _completed(given: Given, work: Work) -> Given:
     share = _probability(given, work, hidden[:2], hidden.next)
     wanted = _probability(given, work, other, hidden.next)
     work.say("Both must be the same:")
-    count = work.answer(work.equate("x", share, wanted))
+    count = work.answer(work.equate(str(hidden.weight), share, wanted))
     if not is_rational(count):
         raise NoSolution("the missing count must be a number")
     rows = [row._replace(weight=Fraction(int(count.p), int(count.q))) if row == hidden else row for row in given.table]

@@ -162,3 +162,28 @@ def test_an_episode_ends_in_a_terminal_state_alone() -> None:
     exercise = rldrill.read({"family": "semi-gradient-td", "given": given})
     assert "terminal" not in str(exercise.question())
     assert exercise.answers()["a"] == (2,)  # 1 + 2 − 1
+
+
+def test_robots_are_two_only_where_they_can_be_exchanged_in_every_matrix() -> None:
+    given = {"A": [[1, "1/2"], ["1/2", 1]], "B": [[1, 0], [0, 1]], "Q": [[1, 0], [0, 2]], "R": [[1, 0], [0, 1]]}
+    for Q, told in (([[1, 0], [0, 2]], False), ([[1, 0], [0, 1]], True)):
+        try:
+            exercise = rldrill.read({"family": "lqr-infinite", "given": given | {"Q": Q}})
+        except FileError:
+            continue  # no closed form
+        assert ("Two identical robots" in str(exercise.question())) is told
+
+
+def test_a_coin_that_never_shows_heads_is_most_probably_one_that_never_does() -> None:
+    given = {"coin": {"heads": 0, "tails": 3, "a": 1, "b": 1}}
+    exercise = rldrill.read({"family": "model-fitting", "given": given})
+    written = str(exercise.working("b"))
+    assert "It falls all the way from" in written
+    assert "derivative" not in written
+
+
+def test_the_letter_that_is_asked_for_is_the_one_that_is_left_open() -> None:
+    # p/(p + 1) = 2/3
+    table = [["A", "A", "A", "p"], ["A", "A", "B", 1], ["B", "A", "A", 2], ["B", "A", "B", 1]]
+    exercise = rldrill.read({"family": "markov-property", "given": {"table": table, "asked": "A"}})
+    assert str(exercise.answers()["a"]) == "2"
