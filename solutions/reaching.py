@@ -62,7 +62,12 @@ def reached(
         if parameters(worth):
             work.say(f'If {action} is best in {state}, this is ${given.name}("{state}") = {told(target)}$:')
             ends[action] = work.equate("y", worth, target)
-    if not ends or any(worth >= target for action, worth in worths.items() if action not in ends):
+    others = [worth for action, worth in worths.items() if action not in ends]
+    if ends and max(others, default=None) == target:
+        raise NoSolution(
+            f"more than one value of {given.other!r} is right: another action in {state!r} is worth {target} anyway"
+        )
+    if not ends or any(worth > target for worth in others):
         raise NoSolution(f"with no value of {given.other!r} is the best action in {state!r} worth {target}")
     value = chosen(ends.values())
     (best, *_) = (action for action, end in ends.items() if end == value)

@@ -81,23 +81,25 @@ class Given(Reversible, ModelAndPolicy):
         Raises:
             ValueError: a state can come again, so that episodes have no greatest length.
         """
-        for start, chance in self.start.items():
-            if chance != 0:
-                yield from (Episode(start, rows) for rows in self._onward(start, ()))
+        begun = [Episode(start, ()) for start, chance in self.start.items() if chance != 0][::-1]
+        while begun:
+            episode = begun.pop()
+            now = episode.transitions[-1].next if episode.transitions else episode.start
+            if now in self.mdp.terminal:
+                yield episode
+            elif any(row.state == now for row in episode.transitions):
+                raise ValueError(
+                    f"mdp: {now!r} can come again in an episode, which is no tree of chances; take out what leads back"
+                )
+            else:
+                goes_on = [Episode(episode.start, (*episode.transitions, row)) for row in self._next(now)]
+                begun += reversed(goes_on)
 
-    def _onward(self, state: str, before: tuple[Transition, ...]) -> Iterator[tuple[Transition, ...]]:
-        if state in self.mdp.terminal:
-            yield before
-            return
-        if any(row.state == state for row in before):
-            raise ValueError(
-                f"mdp: {state!r} can come again in an episode, so this is no tree of chances; take out what leads back"
-            )
+    def _next(self, state: str) -> Iterator[Transition]:
+        """What can happen in a state that is not terminal."""
         for action in self.mdp.actions[state]:
             if self.chances[state].get(action, 0) != 0:
-                for row in self.mdp.outcomes[state, action]:
-                    if row.probability != 0:
-                        yield from self._onward(row.next, (*before, row))
+                yield from (row for row in self.mdp.outcomes[state, action] if row.probability != 0)
 
 
 #: Branches: a state, an action and where it may lead, in numbers; 3 is the end.

@@ -95,9 +95,9 @@ def _of_threshold(given: Threshold, work: Work, evaluation: Evaluation) -> None:
     work.say("$π_0$ is optimal as long as no other action is worth more than that of $π_0$. The other actions:")
     worths = {each: work.step(value_of_action, s=each[0], a=each[1], V=values, **known) for each in others}
     if rest := [f"{action} in {state}" for state, action in others if (state, action) != pair]:
-        work.say(
-            f"Whatever ${letter}$ is, {joined(rest)} {'is' if len(rest) == 1 else 'are'} worth less than $V^{{π_0}}$."
-        )
+        less = all(worths[each] < values[each[0]] for each in others if each != pair)
+        compared = f"{'is' if len(rest) == 1 else 'are'} worth {'less' if less else 'no more'} than $V^{{π_0}}$"
+        work.say(f"Whatever ${letter}$ is, {joined(rest)} {compared}.")
     work.say(f"In {row.state}, {row.action} is worth as much as {start[row.state]} if")
     bound = work.equate(str(row.reward), worths[pair], values[row.state])
     more = f"With a larger ${letter}$, {row.action} is better there"

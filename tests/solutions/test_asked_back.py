@@ -187,3 +187,25 @@ def test_the_letter_that_is_asked_for_is_the_one_that_is_left_open() -> None:
     table = [["A", "A", "A", "p"], ["A", "A", "B", 1], ["B", "A", "A", 2], ["B", "A", "B", 1]]
     exercise = rldrill.read({"family": "markov-property", "given": {"table": table, "asked": "A"}})
     assert str(exercise.answers()["a"]) == "2"
+
+
+def test_an_episode_may_be_as_long_as_a_model_is_large() -> None:
+    length = 500
+    rows = [[f"S{step}", "on", f"S{step + 1}", 1, 1] for step in range(length)]
+    given = {"mdp": {"transitions": rows, "terminal": [f"S{length}"]}, "start": {"S0": 1}, "gamma": 1}
+    assert rldrill.read({"family": "expected-return", "given": given}).answers() == {"a": length}
+
+
+def test_an_action_that_is_worth_as_much_is_not_said_to_be_worth_less() -> None:
+    ways = [["A", "u", 5], ["A", "v", 5], ["B", "u", 1], ["B", "v", "x"], ["B", "w", 1]]
+    mdp = {"transitions": [[state, action, "end", 1, reward] for state, action, reward in ways], "terminal": ["end"]}
+    given = {"mdp": mdp, "start": {"A": "u", "B": "u"}, "gamma": "1/2", "reward": 3}
+    written = " ".join(str(rldrill.read({"family": "policy-iteration", "given": given}).working("b")).split())
+    assert "v in A and w in B are worth no more than" in written
+
+
+def test_a_value_that_another_action_has_anyway_leaves_the_other_state_open() -> None:
+    rows = [["A", "stay", "end", 1, 5], ["A", "go", "B", 1, 0], ["B", "u", "end", 1, "x"], ["B", "v", "end", 1, -3]]
+    given = {"mdp": {"transitions": rows, "terminal": ["end"]}, "gamma": "1/2", "optimum": {"A": 5}}
+    with pytest.raises(FileError, match="more than one value of 'B' is right: another action in 'A' is worth 5"):
+        rldrill.read({"family": "optimal-value", "given": given})
