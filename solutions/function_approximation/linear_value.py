@@ -85,7 +85,8 @@ def _state_sought(given: Given, bumps: Bumps, work: Work, places: Callable[[Give
     both = _values(given, work, _inside(work, x - exact(left), exact(right) - x, width), places, given.actions)
     work.say("The two are equal where")
     state = work.equate("x", *both.values())
-    if sign(state - exact(left)) < 0 or sign(exact(right) - state) < 0:
+    outside = sign(state - exact(left)) < 0 or sign(exact(right) - state) < 0
+    if outside and work.misconception is None:
         raise NoSolution("between the centres one action is always better than the other; change theta")
     work.answer(state)
     work.answer(_at(work, given.actions[0], both, state))
