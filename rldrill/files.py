@@ -186,7 +186,8 @@ def _cure(message: str, line: str) -> str:
     if found := _BARE_FRACTION.search(_QUOTED.sub("", line)):
         return f'a fraction stands in quotes: "{found[0]}"'
     if found := _GREEK_NAME.search(_QUOTED.sub("", line)):
-        return f"names are spelled out there: {''.join(_SPELLED.get(sign, sign) for sign in found[0][:_KEY_SHOWN])}"
+        name = "".join(_SPELLED.get(sign, sign) for sign in found[0][:_KEY_SHOWN])
+        return f"a Greek name stands in quotes there, or is spelled out: {name}"
     if _YAML.match(line):
         return "write name = value, as TOML has it; YAML is not read"
     return "fix it there"

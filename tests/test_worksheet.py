@@ -431,7 +431,7 @@ def test_a_manifest_prints_the_same_bytes_again_and_keys_alone(tmp_path: Path) -
     for folder in (there, again, keys):
         folder.mkdir()
     _, said = run("return", "td-zero/1/62590", "-n", 2, "--seed", 4, "--versions", 2, "-o", there / "a.pdf")
-    assert "2 versions: shared problems 0, shared answers 0" in said
+    assert "2 versions: shared problems 0, 1 the same in all, shared answers 0" in said
     data = json.loads((there / "a.json").read_text())
     assert data["typst"]
     first, *_ = data["versions"][0]["problems"]
@@ -537,8 +537,21 @@ def test_a_blueprint_is_written_read_and_printed(tmp_path: Path, monkeypatch: py
     assert "is there already" in refused("--init", "exam.toml")
     assert run("exam.toml", "--versions", 1)[0] == ["exam.pdf", "exam-key.pdf", "exam.json"]
     assert json.loads(Path("exam.json").read_text())["points"] == 60
-    for more in (("bellman",), ("-n", 3), ("--level", 2)):
-        assert "leave the other names out" in refused("exam.toml", *more)
+    for more, out in ((("bellman",), "the other names"), (("-n", 3), "-n"), (("--level", 2), "--level")):
+        assert f"leave {out} out" in refused("exam.toml", *more)
+
+
+def test_what_an_option_would_not_do_is_refused(tmp_path: Path) -> None:
+    roster = tmp_path / "course.csv"
+    roster.write_text("name,number\nAda,1\n")
+    assert "leave --versions out" in refused("return", "--roster", roster, "--versions", 2)
+    assert "leave the rest out" in refused("--init", tmp_path / "new.toml", "return", "-n", 3)
+    assert not (tmp_path / "new.toml").exists()
+
+
+def test_problems_that_are_the_same_in_all_versions_are_counted(tmp_path: Path) -> None:
+    _, said = run("td-zero/1/62590", "return", "-n", 2, "--versions", 2, "--seed", 4, "-o", tmp_path / "a.pdf")
+    assert "2 versions: shared problems 0, 1 the same in all, shared answers 0" in said
 
 
 def test_names_ids_and_files_are_mixed(tmp_path: Path) -> None:

@@ -80,6 +80,10 @@ def command(
     from rldrill.problems.identity import names_a_problem
     from rldrill.quiz.prompt import is_interactive, line_editor
 
+    if exam is not None and any((names, number, level, exam_date, minutes, mistake)):
+        raise UsageError("--exam says what is asked, and for how long; leave out what else would say it.")
+    if exam is None and any((version, answers)):
+        raise UsageError("--version and --answers are of an exam; name its blueprint or manifest, --exam exam.toml.")
     if not is_interactive():
         raise UsageError(
             "The quiz needs a terminal; without one use 'rldrill verify FILE' to grade answers, "
@@ -170,6 +174,8 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
         raise UsageError(f"{path} does not end in .toml, as files of answers do.")
     saved = path.with_suffix(".json")
     if source.suffix.lower() == ".json":
+        if seed is not None:
+            raise UsageError(f"{source} holds what was drawn; leave --seed out.")
         saved, planned = source, read_manifest(source)
     else:
         planned = _begun(source, saved, seed)

@@ -52,8 +52,9 @@ def command(
         str | None, typer.Option("--pass", metavar="60%", help="What every student needs; all right, if not given.")
     ] = None,
     feedback: Annotated[
-        Literal["none", "verdict", "reason", "key"], typer.Option("--feedback", help="How much is told.")
-    ] = "reason",
+        Literal["none", "verdict", "reason", "key"] | None,
+        typer.Option("--feedback", help="How much is told; the reason, if not given."),
+    ] = None,
     show_key: Annotated[bool, typer.Option("--show-key", help="Print the right answers too: --feedback key.")] = False,
     hand_ins: Annotated[
         Literal["last", "first", "best"] | None,
@@ -112,7 +113,9 @@ def command(
         raise UsageError("Which answers? Name a file, as in 'rldrill verify answers.toml'.")
     if exam is None and (version or roster):
         raise UsageError("A version is one of an exam; name its manifest, --for exam.json.")
-    told = "key" if show_key else feedback
+    if show_key and feedback not in (None, "key"):
+        raise UsageError(f"--show-key prints the right answers, and --feedback {feedback} does not; give one of them.")
+    told = "key" if show_key else feedback or "reason"
     wanted = [_wanted(each) for each in reports or ()]
     _keep_apart(wanted, [*files, *filter(None, (exam, roster))])
     settings = Settings(

@@ -112,6 +112,8 @@ def command(
         "notation": notation,
     }
     if init is not None:
+        if any((names, count, minutes, level, exclude, seed is not None, versions, roster, title, source, key)):
+            raise UsageError("--init writes a blueprint to fill in; leave the rest out, and write it there.")
         _write_template(init, force=force)
         written = [init]
     elif source is not None:
@@ -122,6 +124,8 @@ def command(
             return
         written = _reprinted(source, output, changes, only_keys=key, force=force)
     else:
+        if roster is not None and versions is not None:
+            raise UsageError("--roster makes a version for everybody in it; leave --versions out.")
         blueprint, stem, planned = _blueprint(names or [], count, minutes, level)
         blueprint = blueprint.but(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
@@ -225,7 +229,8 @@ def _blueprint(
     plans = [name for name in paths if name.lower().endswith(".toml") and is_blueprint(read_data(name))]
     if plans:
         if len({*names}) > 1 or count or level:
-            raise UsageError(f"{plans[0]} is a blueprint, which names the problems itself; leave the other names out.")
+            others = "the other names" if len({*names}) > 1 else "-n" if count else "--level"
+            raise UsageError(f"{plans[0]} is a blueprint, which names the problems itself; leave {others} out.")
         return read_blueprint(plans[0]).but(minutes=minutes), Path(plans[0]).stem, True
     entries = [(name, _entry(name)) for name in names]
     rest = tuple(name for name, entry in entries if entry is None)

@@ -27,6 +27,7 @@ class Fairness(Struct, frozen=True):
         scarce: where answers are shared, how many different ones there are, as ``3 b: 10``.
         balance: how often each answer is right where there are only a few to choose from, as ``3 b: yes 15, no 15``.
         families: the family and level of those places, by their number.
+        fixed: how many places hold the same problem in every version.
     """
 
     shared_problems: int
@@ -36,11 +37,13 @@ class Fairness(Struct, frozen=True):
     scarce: Mapping[str, int]
     balance: Mapping[str, Mapping[str, int]]
     families: Mapping[str, str]
+    fixed: int = 0
 
     def says(self) -> str:
         """The figures in a sentence."""
+        aside = f", {self.fixed} the same in all" if self.fixed else ""
         return (
-            f"shared problems {self.shared_problems}, shared answers {self.shared_answers}, "
+            f"shared problems {self.shared_problems}{aside}, shared answers {self.shared_answers}, "
             f"{self.minutes[0]} to {self.minutes[1]} minutes (spread {100 * self.spread:.1f} %)"
         )
 
@@ -68,7 +71,7 @@ class Fairness(Struct, frozen=True):
     def data(self) -> dict[str, object]:
         """The figures as JSON has them."""
         figures = asdict(self) | {"spread": round(self.spread, 4)}
-        del figures["families"]
+        del figures["families"], figures["fixed"]
         return figures
 
 
@@ -103,6 +106,7 @@ def fairness(exam: Exam) -> Fairness:
         scarce,
         balance,
         families,
+        len(fixed),
     )
 
 

@@ -68,6 +68,11 @@ def test_help_and_list_import_nothing_heavy() -> None:
     ("arguments", "code", "fragment"),
     [
         (["quiz"], 2, "needs a terminal"),
+        (["quiz", "--exam", "exam.toml", "--minutes", "5"], 2, "--exam says what is asked, and for how long"),
+        (["quiz", "--exam", "exam.toml", "td-zero"], 2, "--exam says what is asked"),
+        (["quiz", "--version", "A"], 2, "are of an exam"),
+        (["quiz", "--answers", "mine.toml"], 2, "are of an exam"),
+        (["verify", "mine.toml", "--show-key", "--feedback", "none"], 2, "give one of them"),
         (["show", "nonsense"], 2, "nonsense"),
         (["show", "no-such/1/1"], 2, "no family"),
         (["show", "td-zero/1/1@9"], 2, "revision 9"),

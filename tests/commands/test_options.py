@@ -44,7 +44,7 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
     },
     verify: {
         "exam": (None, None, None), "version": (None, None, None), "roster": (None, None, None),
-        "reports": (None, None, None), "enough": (None, None, None), "feedback": ("reason", None, None),
+        "reports": (None, None, None), "enough": (None, None, None), "feedback": (None, None, None),
         "show_key": (False, None, None), "hand_ins": (None, None, None), "absent": (True, None, None),
         "allow_files": (False, None, None),
         "strict": (False, None, None), "seconds": (30, 0.1, 3600), "schema": (False, None, None),
