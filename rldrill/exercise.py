@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 _SOLVED_FURTHER = (Result, Elimination, Equality)
 
 
-class Exercise(Struct, frozen=True, dict=True):
+class Exercise(Struct, frozen=True, eq=False, dict=True):
     """A problem together with its solution.
 
     What is a page (``question``, ``hint``, ``working``) is readable text as ``str``, and Markdown in a notebook.
@@ -75,6 +75,19 @@ class Exercise(Struct, frozen=True, dict=True):
         """What is asked, with its points."""
         worth = self.worth or points(self.solution)
         return tuple(replace(part, points=worth[part.label]) for part in self.problem.parts)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the problem is the same, and what its parts are worth; its solution follows from it."""
+        if not isinstance(other, Exercise):
+            return NotImplemented
+        return (self.problem, self.notes, self.worth) == (other.problem, other.notes, other.worth)
+
+    def __hash__(self) -> int:
+        return hash((self.id, self.problem.family.name, tuple(part.label for part in self.problem.parts)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """In another process the problem is solved again."""
+        return _again, (self.id, None if self.id else self.problem.data(), self.notes, self.worth)
 
     def __repr__(self) -> str:
         name = self.id or f"of the family {self.problem.family.name}"
@@ -172,6 +185,8 @@ class Exercise(Struct, frozen=True, dict=True):
             UsageError: the problem has no such part, or an answer is nothing that could be typed.
         """
         label = self._part(part).label
+        if not isinstance(earlier, Mapping | None):
+            raise _refused("earlier", "a dictionary such as {'a': '3/4'}", earlier)
         verdicts = {each.part: each.verdict for each in self.grade({**(earlier or {}), label: answer}).parts}
         if (verdict := verdicts[label]) is None:
             raise UsageError("The answer is missing; give a text or a number.")
@@ -301,6 +316,8 @@ class Exercise(Struct, frozen=True, dict=True):
             mistakes: with so many wrong answers to every part, each with what it comes from.
             latex: the question, and what is asked, as Markdown with LaTeX.
         """
+        if _whole("mistakes", mistakes) < 0:
+            raise _refused("mistakes", "0 or more", mistakes)
         result: dict[str, Any] = {"format": FORMAT, "id": self.id, **self.problem.data()}
         result["level"] = self.problem.level
         result["question"] = markdown(self.question()) if latex else [unicode_text(block) for block in self.question()]
@@ -396,6 +413,12 @@ def _map(data: Any, write: Callable[[str], Any]) -> Any:
     if isinstance(data, dict):
         return {key: _map(item, write) for key, item in data.items()}
     return tuple(_map(item, write) for item in data) if isinstance(data, list) else write(data)
+
+
+def _again(identity: str | None, data: object, notes: tuple[str, ...], worth: Mapping[str, int] | None) -> Exercise:
+    """The exercise that was put away."""
+    exercise = read(data) if identity is None else load(identity)
+    return replace(exercise, notes=notes, worth=worth)
 
 
 def _number(text: str) -> Fraction | str:

@@ -1,6 +1,9 @@
 """What an exact number is, whatever it is made of; what can be asked of it is in ``exact``."""
 
-from typing import Protocol
+import copyreg
+from typing import Any, Protocol
+
+from flint import fmpq_mat, fmpq_poly
 
 
 class Value(Protocol):
@@ -38,3 +41,16 @@ class TooLong(NoSolution):
 
 class NotReal(NoSolution):
     """It is no real number, or one too close to zero to tell from it."""
+
+
+def _put_away(polynomial: fmpq_poly) -> tuple[Any, ...]:
+    return fmpq_poly, (polynomial.coeffs(),)
+
+
+def _put_away_matrix(matrix: fmpq_mat) -> tuple[Any, ...]:
+    return fmpq_mat, (matrix.nrows(), matrix.ncols(), matrix.entries())
+
+
+# Flint does not say how these are put away, for another process.
+copyreg.pickle(fmpq_poly, _put_away)
+copyreg.pickle(fmpq_mat, _put_away_matrix)

@@ -1,5 +1,8 @@
 """What one tries with an exercise in a notebook."""
 
+import copy
+import pickle
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from typing import Any
@@ -8,6 +11,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import fmpq
+from msgspec.structs import replace
 
 import rldrill
 from rldrill.problems.errors import UserError
@@ -74,3 +78,38 @@ def test_a_power_of_nothing_is_no_answer_of_a_mistake() -> None:
     exercise = rldrill.read({"family": "contraction", "given": given})
     for part in exercise.parts:
         exercise.check("17", part.label)
+
+
+@pytest.mark.parametrize("identity", ["td-zero/1/7", "policy-value/3/5", "lqr-backward/2/3", "max-margin/2/3"])
+def test_exercises_and_what_they_say_go_to_another_process(identity: str) -> None:
+    """A pool of graders draws in one process and tells in another."""
+    exercise = rldrill.load(identity)
+    again = pickle.loads(pickle.dumps(exercise))
+    assert (again, hash(again)) == (exercise, hash(exercise))
+    assert again != replace(exercise, worth={part.label: 7 for part in exercise.parts})
+    for part in exercise.data(mistakes=2)["parts"]:
+        for wrong in part["mistakes"]:
+            verdict = again.check(wrong["answer"], part=part["part"])
+            assert pickle.loads(pickle.dumps(verdict)) == verdict
+    graded = exercise.grade(exercise.answers())
+    assert pickle.loads(pickle.dumps(graded)) == graded
+    assert len({exercise, again, copy.deepcopy(exercise)}) == 1
+
+
+def test_a_problem_of_ones_own_goes_to_another_process() -> None:
+    exercise = rldrill.read({"family": "return", "given": {"rewards": ["0.3333333333333333", 1], "gamma": "1/2"}})
+    assert exercise.notes
+    again = pickle.loads(pickle.dumps(exercise))
+    assert (again, again.notes, again.answers()) == (exercise, exercise.notes, exercise.answers())
+
+
+@pytest.mark.parametrize("call", [
+    lambda exercise: exercise.diagnose("6.9", earlier=3),
+    lambda exercise: exercise.data(mistakes="x"),
+    lambda exercise: exercise.data(mistakes=-1),
+])  # fmt: skip
+def test_what_a_call_cannot_use_is_refused(
+    exercise: rldrill.Exercise, call: Callable[[rldrill.Exercise], object]
+) -> None:
+    with pytest.raises(rldrill.UserError, match="must be"):
+        call(exercise)

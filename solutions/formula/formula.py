@@ -52,6 +52,10 @@ class Misconception(Struct, frozen=True, eq=False, dict=True):
     def __repr__(self) -> str:
         return f"<misconception {self.name}>"
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """In another process it is told, not made: what it says goes there, and no code."""
+        return Misconception, self.key
+
     @cached_property
     def key(self) -> tuple[str, str]:
         """What tells it from others, in a form that is quickly looked up."""
