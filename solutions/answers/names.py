@@ -178,6 +178,14 @@ def options_named(word: str, allowed: Sequence[str]) -> list[str]:
     return [option for option in allowed if (way and _WAY.get(option.casefold()) == way) or _begins(typed, option)]
 
 
+def _alternatives(text: str, allowed: Sequence[str]) -> list[str]:
+    """What stands between commas, strokes and "or"; a name with a comma in it, such as ``(0,1)``, stays whole."""
+    names = [r"\s*".join(map(re.escape, "".join(name.split()))) for name in allowed if _ALTERNATIVES.search(name)]
+    pieces = re.split(f"({'|'.join(names)})", text) if names else [text]
+    each = ([piece] if at % 2 else _ALTERNATIVES.split(piece) for at, piece in enumerate(pieces))
+    return [piece for split in each for piece in split if piece.strip()]
+
+
 def the_options(word: Source, place: str, allowed: Sequence[str]) -> tuple[str, ...]:
     """The action that is typed for a state, or the actions: ``E or S``.
 
@@ -188,7 +196,7 @@ def the_options(word: Source, place: str, allowed: Sequence[str]) -> tuple[str, 
     hits = options_named(word.text, allowed) or options_named(inside.text, allowed)
     if len(hits) == 1:
         return (hits[0],)
-    several = [piece for piece in _ALTERNATIVES.split(inside.text) if piece]
+    several = _alternatives(inside.text, allowed)
     each = [options_named(piece, allowed) for piece in several]
     if (len(several) > 1 or inside is not word) and each and all(len(found) == 1 for found in each):
         chosen = {found[0] for found in each}

@@ -173,3 +173,14 @@ def test_two_threads_compare_at_their_own_precision() -> None:
 
     with ThreadPoolExecutor(4) as pool:
         assert all(pool.map(compare, range(400)))
+
+
+@pytest.mark.parametrize("typed", [
+    "(0,0): (0,1) or (1,0)", "(0,1) or (1,0)", "(0,0): [(0,1), (1,0)]", "(0,0): (1, 0) / (0, 1)", "(0,0): (1,0)",
+])  # fmt: skip
+def test_names_that_are_places_of_a_grid_are_tied(typed: str) -> None:
+    edges = [["(0,0)", "(0,1)", 1], ["(0,1)", "(1,1)", 1], ["(0,0)", "(1,0)", 1], ["(1,0)", "(1,1)", 1]]
+    given = {"edges": edges, "start": "(0,0)", "goal": "(1,1)"}
+    exercise = rldrill.read({"family": "principle-of-optimality", "given": given})
+    assert exercise.check(typed, part="b").accepted
+    assert exercise.grade(exercise.answers()).points == sum(part.points for part in exercise.parts)
