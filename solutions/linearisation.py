@@ -265,6 +265,8 @@ def _needed(work: Work, given: System, by: str, known: Mapping[str, Any], rule: 
         ):
             needed.append(part)
     if idle := [part for part in rights if part not in needed]:
+        for part in idle:  # 0 times what does not exist is not 0
+            value_of(rights[part], without)
         rest = [f"${part} = 0$" for part in given.where if known[dynamics.code(part)] == 0]
         rest = rest or [
             f"$f_{{{index}}} = 0$"

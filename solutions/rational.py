@@ -178,6 +178,8 @@ def linear(value: Value, parameter: str) -> tuple[Value, Value]:
     """
     if not isinstance(value, RationalFunction) or value.parameter != parameter:
         raise NoSolution(f"{parameter} falls out of the equation that it is to be found from; change what is given")
+    if value.top.degree() == 0:
+        raise NoSolution(f"no value of {parameter} solves the equation; change the numbers that are given")
     if value.top.degree() != 1:
         raise NoSolution(f"the equation is not linear in {parameter}; change the numbers that are given")
     return value.top[1], value.top[0]

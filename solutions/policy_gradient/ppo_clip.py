@@ -67,7 +67,10 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
     for time in times:
         unclipped, clipped = known["unclipped"][time], known["clipped"][time]
         cuts.append(sign(unclipped - clipped) != 0 and sign(objective[time] - clipped) == 0)
-        work.say(_reason(time, cut=cuts[-1], inside=sign(unclipped - clipped) == 0))
+        if sign(known["A_t"][time]) == 0:
+            work.say(f"$A_{{{time}}} = 0$, so both terms are $0$ and have no gradient, clipped or not.")
+        else:
+            work.say(_reason(time, cut=cuts[-1], inside=sign(unclipped - clipped) == 0))
     verdict = _told(cuts)
     if isinstance(verdict, str):
         work.say(f"So the answer is: {CUT[verdict]}.")
@@ -134,8 +137,8 @@ def _thresholds(work: Work, known: Mapping[str, Any]) -> None:
     bounds: dict[int, Value] = {}
     for time, ratio in known["rho"].items():
         known["unclipped"][time] = work.step(PPO_UNCLIPPED, t=time, **known)
-        wanted, moved = _words(known["A_t"][time]), _words(ratio - 1)
-        said = f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely"
+        wanted, moved = _ADVANTAGE[sign(known["A_t"][time])], _LIKELY[sign(ratio - 1)]
+        said = f"The advantage $A_{{{time}}}$ is {wanted}, and the action {moved}"
         if not _can_be_cut(known, time):
             work.say(f"{said}: $u_{{{time}}}$ is never the larger term, so no $ε$ cuts off this gradient: $0$.")
             bounds[time] = ZERO
@@ -163,11 +166,9 @@ def _at_the_bound(work: Work, known: Mapping[str, Any], time: int, relation: str
     return held
 
 
-def _words(number: Value) -> str:
-    return "more" if sign(number) > 0 else "less"
-
-
-_SIGNS = {"more": "positive", "less": "negative"}
+#: By the sign of the advantage, and of the ratio less 1.
+_ADVANTAGE = {1: "positive", 0: "$0$", -1: "negative"}
+_LIKELY = {1: "has become more likely", 0: "is as likely as before", -1: "has become less likely"}
 
 
 def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) -> None:

@@ -80,6 +80,8 @@ BETWEEN: dict[str, Any] = {
 }  # fmt: skip
 TENTS: dict[str, Any] = {"centres": [[0], [4]], "width": 4, "known": {"1": "3/4", "2": "1/4"}}
 BELLS: dict[str, Any] = {"position": [1], "centres": [[0], [3]], "logarithms": {"1": "-1/2"}}
+TENT_AT: dict[str, Any] = {"position": [1], "centres": [[0], [4]], "width": 4, "theta": [1, 2]}
+BELL_AT: dict[str, Any] = {"position": [1], "centres": [[0], [3]], "sigma": 1, "theta": [1, 2]}
 MOMENTS: dict[str, Any] = {
     "features": {"a": [4, 1], "b": [3, 3]}, "trajectories": [["a", "b"]], "gamma": "gamma", "estimate": 5,
 }  # fmt: skip
@@ -267,7 +269,7 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
         "transitions": [["a", "x", "b", 1, 3], ["a", "y", "b", 1, 12]]}, "values": {"b": 8}},
      "chance: it follows from the value of 'a'"),
     ("action-value", BACKUP | {"chance": True}, {"gamma": "gamma"}, "chance: it follows from the value of 'a'"),
-    ("action-value", BACKUP | {"gamma": "gamma", "find": True}, {"gamma": "1/2"},
+    ("action-value", BACKUP | {"values": {"a": 10, "b": 28}, "gamma": "gamma", "find": True}, {"gamma": "1/2"},
      "find: leave exactly one number open"),
     ("bellman-backup", BACKUP | POLICY | {"gamma": "gamma", "find": True}, {"dynamics": {
         "transitions": [["a", "x", "b", 1, 3], ["a", "y", "b", 1, 12]]}, "values": {"b": 8}},
@@ -351,11 +353,13 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("piecewise-linear-rbf", TENTS, {"width": 0}, "width: it must be above 0, not 0"),
     ("piecewise-linear-rbf", TENTS, {"width": None}, "give the width or the position; both cannot be found"),
     ("piecewise-linear-rbf", TENTS, {"known": {"1": "3/4"}}, "known"),
-    ("piecewise-linear-rbf", TENTS, {"theta": [1]}, "theta: 2 features need as many weights, not 1"),
+    ("piecewise-linear-rbf", TENTS, {"theta": [1, 2]}, "theta: a value is asked for where all features are worked out"),
+    ("piecewise-linear-rbf", TENT_AT, {"theta": [1]}, "theta: 2 features need as many weights, not 1"),
     ("rbf", BELLS, {"logarithms": {"1": 0}}, "logarithms: a feature that tells how far away the state is"),
     ("rbf", BELLS, {"sigma": 1}, "0 of the features must be known, not 1"),
     ("rbf", BELLS, {"position": None}, "give the width or the position; both cannot be found"),
-    ("rbf", BELLS, {"theta": [1]}, "theta: 2 features need as many weights, not 1"),
+    ("rbf", BELLS, {"theta": [1, 2]}, "theta: a value is asked for where all features are worked out"),
+    ("rbf", BELL_AT, {"theta": [1]}, "theta: 2 features need as many weights, not 1"),
     ("feature-expectations", MOMENTS, {"gamma": "1/2"}, "estimate: leave gamma open, for it is asked for"),
     ("feature-expectations", MOMENTS, {"features": {"a": [4], "b": [3]}}, "estimate: leave gamma open"),
     ("feature-expectations", MOMENTS, {"trajectories": [["a"], []]}, "trajectories: one of them has no states"),

@@ -209,3 +209,22 @@ def test_a_value_that_another_action_has_anyway_leaves_the_other_state_open() ->
     given = {"mdp": {"transitions": rows, "terminal": ["end"]}, "gamma": "1/2", "optimum": {"A": 5}}
     with pytest.raises(FileError, match="more than one value of 'B' is right: another action in 'A' is worth 5"):
         rldrill.read({"family": "optimal-value", "given": given})
+
+
+def test_what_multiplies_an_infinite_derivative_is_not_nothing() -> None:
+    """D² is x, whose derivative is 1 and not the 0 that 2D·D′ looks like where D = √x is 0."""
+    given = {"dynamics": {"x": "D^2 + u"}, "where": {"D": "sqrt(x)"}, "state": {"x": 0}, "action": {"u": 1}}
+    with pytest.raises(FileError, match="do not exist at the operating point"):
+        rldrill.read({"family": "linearise", "given": given})
+
+
+def test_an_advantage_of_nothing_is_neither_positive_nor_negative() -> None:
+    sample = {"state": "hall", "action": "roll", "old": "1/4", "new": "1/2", "advantage": 0}
+    once = rldrill.read({"family": "ppo-clip", "given": {"samples": [sample], "epsilon": "1/5"}})
+    assert "inside the range" not in str(once.working())
+    assert once.answers()["d"] == "no"
+    as_before = {**sample, "new": "1/4", "advantage": 2}
+    sought = rldrill.read({"family": "ppo-clip", "given": {"samples": [sample, as_before]}})
+    written = " ".join(str(sought.working()).split())
+    assert "The advantage A₀ is 0, and the action has become more likely" in written
+    assert "The advantage A₁ is positive, and the action is as likely as before" in written
