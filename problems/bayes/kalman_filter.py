@@ -278,10 +278,12 @@ def _models(given: Given) -> tuple[Block, ...]:
         ("Q", given.sensor), ("μ_0", given.mean), ("Σ_0", given.covariance),
     )  # fmt: skip
     driven = " + B u_t" if given.driven else ""
+    size = len(given.mean)
+    moves = size == 2 and all(given.A[i][j] == value for i, j, value in ((0, 0, 1), (1, 0, 0), (1, 1, 1)))
     told = (
         "A robot's state is its position and its velocity"
-        if len(given.mean) == 2
-        else f"A robot's state has {len(given.mean)} components"
+        if moves and given.A[0][1] != 0
+        else f"A robot's state has {size} component{'s' * (size > 1)}"
     )
     return (
         Paragraph(

@@ -228,3 +228,21 @@ def test_an_advantage_of_nothing_is_neither_positive_nor_negative() -> None:
     written = " ".join(str(sought.working()).split())
     assert "The advantage A₀ is 0, and the action has become more likely" in written
     assert "The advantage A₁ is positive, and the action is as likely as before" in written
+
+
+@pytest.mark.parametrize(("A", "said"), [
+    ([[1, 2], [0, 1]], "its position and its velocity"), ([[1, 0], [0, 1]], "2 components"),
+    ([[1, 1], ["1/2", 1]], "2 components"),
+])  # fmt: skip
+def test_a_state_of_two_numbers_need_not_move(A: list[list[Any]], said: str) -> None:
+    unit = [[1, 0], [0, 1]]
+    given = {"mean": [1, 1], "covariance": unit, "A": A, "C": [[1, 0]], "process": unit, "sensor": [[4]],
+             "steps": [{"z": [[4]]}]}  # fmt: skip
+    question = " ".join(str(rldrill.read({"family": "kalman-filter", "given": given}).question()).split())
+    assert f"A robot's state {'is' if 'its' in said else 'has'} {said}." in question
+
+
+def test_one_return_is_not_asked_for_in_an_order() -> None:
+    exercise = rldrill.read({"family": "return", "given": {"rewards": 3, "gamma": "1/2"}})
+    assert exercise.parts[0].ask == "What is the return $R_0$?"
+    assert exercise.check("3").accepted
