@@ -251,7 +251,12 @@ def shown(value: Weight | int) -> str:
     return str(value).replace("-", "−")
 
 
-def _no_complement(value: Scalar) -> Scalar:
+def no_complement(value: Scalar) -> Scalar:
+    """The value; what is asked for by its letter is not left open as ``1-x``.
+
+    Raises:
+        ValueError: it is one minus a letter.
+    """
     if isinstance(value, Parameter) and value.complement:
         raise ValueError(f"{str(value)!r} is one minus what is asked for; leave {value.symbol} open")
     return value
@@ -264,7 +269,7 @@ def _probability(value: Scalar) -> Scalar:
 
 
 def _rate(value: Scalar) -> Scalar:
-    _no_complement(value)
+    no_complement(value)
     if isinstance(value, Fraction) and not 0 < value <= 1:
         raise ValueError(f"{value} is not above 0 and at most 1; give a number that is")
     return value
@@ -272,7 +277,7 @@ def _rate(value: Scalar) -> Scalar:
 
 def _discounts(value: object, info: ValidationInfo) -> Scalar | tuple[Scalar, ...]:
     def one(gamma: object) -> Scalar:
-        number = _no_complement(read_scalar(gamma))
+        number = no_complement(read_scalar(gamma))
         return _probability(meant(gamma, number, note_of(info)) if isinstance(number, Fraction) else number)
 
     return tuple(map(one, value)) if isinstance(value, list | tuple) else one(value)
@@ -314,7 +319,7 @@ OpenProbability = Annotated[
 #: A share such as λ or ε, 0 to 1, or left open: as it is, not what it leaves to 1.
 OpenShare = Annotated[
     Fraction | Parameter,
-    _field(read_scalar, _probability, _no_complement),
+    _field(read_scalar, _probability, no_complement),
     _serialised,
     _schema(f"a number from 0 to 1{_OR_OPEN}"),
 ]

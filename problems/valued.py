@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.exact import Parameter, Scalar, no_complement
 from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.models import (
     PARTLY_LISTED,
@@ -267,11 +267,12 @@ def open_reward(model: Model) -> Transition:
     """The one transition whose reward is left open; nothing else may be.
 
     Raises:
-        ValueError: it is not exactly one reward that is left open.
+        ValueError: it is not exactly one reward that is left open, or it is one minus a letter.
     """
     rows = [row for row in model.transitions if isinstance(row.reward, Parameter)]
     if len(rows) != 1 or any(isinstance(row.probability, Parameter) for row in model.transitions):
         raise ValueError("mdp: leave exactly one number open, a reward, such as x; it is asked for")
+    no_complement(rows[0].reward)
     return rows[0]
 
 

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Parameter, Probability, shown
+from rldrill.problems.exact import Exact, Parameter, Probability, no_complement, shown
 from rldrill.problems.family import AskedFor, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Dynamics, Named, Names, Transition, transitions_table
@@ -42,6 +42,8 @@ class Given(AskedFor):
         open_rows = [row[:2] for row in self.missing.transitions if isinstance(row.reward, Parameter)]
         if self.left_open and (len(open_rows) != 1 or open_rows[0] != self.gaps[-1]):
             raise ValueError("missing: only one reward of the last action there can be left open")
+        for row in self.missing.transitions:
+            no_complement(row.reward)
         for state, action in self.missing.pairs:
             if state not in self.values:
                 raise ValueError(f"values: {state!r} does not occur; give it there, if need be as an empty table")

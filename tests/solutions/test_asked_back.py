@@ -70,6 +70,11 @@ REFUSED = [
     ("sample-average", {"values": {"A": 1}, "alpha": "alpha", "visits": [["A", 3], ["A", "x"]]}, "are left open"),
     ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": "x"}, "alpha": 1,
                  "gamma": 0, "known": 1}, "x falls out of the equation"),
+    ("optimal-policy-from-q", {"values": {"s": {"a": 1}}, "gamma": "1/2", "terminal": ["end"],
+                               "missing": {"transitions": [["s", "b", "end", 1, "1-x"]]}}, "'1-x' is one minus"),
+    ("policy-iteration", {"mdp": {"transitions": [["s", "a", "end", 1, 1], ["s", "b", "end", 1, "1-x"]],
+                                  "terminal": ["end"]}, "start": {"s": "a"}, "gamma": "1/2", "reward": 3},
+     "'1-x' is one minus"),
 ]  # fmt: skip
 
 
