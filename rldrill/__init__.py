@@ -12,17 +12,19 @@ if TYPE_CHECKING:
     from rldrill.exercise import Exercise, draw, load, read
     from rldrill.graded import Graded, GradedPart
     from rldrill.problems.catalogue import families
-    from rldrill.problems.errors import UserError
+    from rldrill.problems.errors import FileError, UsageError, UserError
     from rldrill.problems.fields import FileField, fields
     from rldrill.solutions.answers.judging import Outcome, Verdict
 
 __version__ = "0.1.0"
 __all__ = [
     "Exercise",
+    "FileError",
     "FileField",
     "Graded",
     "GradedPart",
     "Outcome",
+    "UsageError",
     "UserError",
     "Verdict",
     "draw",
@@ -36,7 +38,7 @@ _HOMES = {
     "exercise": ("Exercise", "draw", "load", "read"),
     "graded": ("Graded", "GradedPart"),
     "problems.catalogue": ("families",),
-    "problems.errors": ("UserError",),
+    "problems.errors": ("FileError", "UsageError", "UserError"),
     "problems.fields": ("FileField", "fields"),
     "solutions.answers.judging": ("Outcome", "Verdict"),
 }
