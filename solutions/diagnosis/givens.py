@@ -122,15 +122,15 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
     name = _ENTRIES.get(name, name)
     yield "reversed", value[::-1], name
     for place in range(len(value)):
-        yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{_ordinal(place)} of the {name}"
+        yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{ordinal(place)} of the {name}"
         if place + 1 < len(value) and value[place] != value[place + 1]:
             swapped = (*value[:place], value[place + 1], value[place], *value[place + 2 :])
-            yield "entries-exchanged", swapped, f"{name}, {_ordinal(place)} and {_ordinal(place + 1)}"
+            yield "entries-exchanged", swapped, f"{name}, {ordinal(place)} and {ordinal(place + 1)}"
         if _number(value[place]) and value[place] < 0:
             yield (
                 "minus-lost",
                 (*value[:place], -value[place], *value[place + 1 :]),
-                f"the {_ordinal(place)} of the {name}",
+                f"the {ordinal(place)} of the {name}",
             )
         if isinstance(value[place], tuple | BaseModel):
             for kind, changed, what in _row(value[place], name, place):
@@ -153,19 +153,24 @@ def _row(row: Any, name: str, place: int) -> Changed:
     numbers = [column for column, entry in enumerate(entries) if _number(entry)]
     for column in numbers:
         if entries[column] < 0:
-            yield "minus-lost", changed({column: -entries[column]}), f"the {_ordinal(place)} row of {name}"
+            yield "minus-lost", changed({column: -entries[column]}), f"the {ordinal(place)} row of {name}"
     for one, two in combinations(numbers, 2):
         if entries[one] != entries[two]:
             update = {one: entries[two], two: entries[one]}
-            yield "givens-exchanged", changed(update), f"{_ordinal(place)} row of {name}"
+            yield "givens-exchanged", changed(update), f"{ordinal(place)} row of {name}"
 
 
 def _named(key: Any) -> str:
     return ", ".join(map(str, key)) if isinstance(key, tuple) else str(key)
 
 
-ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 
 
-def _ordinal(place: int) -> str:
-    return ORDINALS[place] if place < len(ORDINALS) else f"{place + 1}th"
+def ordinal(place: int) -> str:
+    """A place counted from 0, in words: first, second, …; 21st."""
+    if place < len(_ORDINALS):
+        return _ORDINALS[place]
+    number = place + 1
+    teens = number % 100 in (11, 12, 13)
+    return f"{number}{'th' if teens else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"

@@ -8,7 +8,7 @@ from sympy import Expr, Mul, preorder_traversal
 from rldrill.problems.mathematics import Math, name, relation, row
 from rldrill.solutions.diagnosis.alternatives import numbers, terms
 from rldrill.solutions.diagnosis.causes import Cause
-from rldrill.solutions.diagnosis.givens import ORDINALS
+from rldrill.solutions.diagnosis.givens import ordinal
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, flat
 from rldrill.solutions.formula.letters import GLYPHS
@@ -260,7 +260,7 @@ def place(application: Application, applications: Sequence[Application]) -> Word
     if isinstance(time, int):
         at = (row(GLYPHS_T, relation("="), name(str(time))),)
     if update and (not at or len(set(times)) == len(times)):
-        where: Words = (f" in the {_ordinal(alike.index(application))} update",)
+        where: Words = (f" in the {ordinal(alike.index(application))} update",)
         return (*where, " (", *at, ")") if at else where
     lefts = [str(each.step.left) for each in alike]
     if lefts.count(str(application.step.left)) == 1:
@@ -268,7 +268,7 @@ def place(application: Application, applications: Sequence[Application]) -> Word
     if at:
         return (" in ", left, " at ", *at)
     nth = [each for each in alike if str(each.step.left) == str(application.step.left)].index(application)
-    return (f" in the {_ordinal(nth)} step for ", left)
+    return (f" in the {ordinal(nth)} step for ", left)
 
 
 GLYPHS_T = next((glyph for symbol, glyph in GLYPHS.items() if symbol.name == "t"), name("t"))
@@ -298,13 +298,13 @@ def _term(cause: Cause) -> Words:
     within = cause.edit.within if cause.edit is not None else cause.probe.within if cause.probe is not None else ()
     own = cause.kind in IN_ONE_TERM
     if not cause.term and cause.nth is not None:
-        nth = _ordinal(cause.nth)
+        nth = ordinal(cause.nth)
         return (f" (the {nth} one)" if own else f" in the {nth} term of the sum",)
     if not cause.term or _in_its_term(cause) is not None:
         return ()
     every = [] if cause.application is None else [term for term, _ in terms(within, cause.application.known)]
     if any(str(item) == over.index.name for term in every for over, item in zip(within, term, strict=True)):
-        nth = _ordinal(every.index(cause.term))  # a = a and a = b say nothing
+        nth = ordinal(every.index(cause.term))  # a = a and a = b say nothing
         return (f" (the {nth} one)" if own else f" in the {nth} term of the sum",)
     pairs = [
         row(typeset(over.index), relation("="), name(str(item))) for over, item in zip(within, cause.term, strict=True)
@@ -313,7 +313,3 @@ def _term(cause: Cause) -> Words:
     for number, pair in enumerate(pairs):
         words += [", ", pair] if number else [pair]
     return (*words, ")") if own else tuple(words)
-
-
-def _ordinal(place: int) -> str:
-    return ORDINALS[place] if place < len(ORDINALS) else f"{place + 1}th"

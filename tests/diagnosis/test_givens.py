@@ -3,11 +3,12 @@
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+import pytest
 from pydantic import BaseModel, ConfigDict, Field
 
 import rldrill
 from rldrill.problems.exact import Exact
-from rldrill.solutions.diagnosis.givens import misread
+from rldrill.solutions.diagnosis.givens import misread, ordinal
 
 # V(cave) = 8, V(floor) = 10, V(rim) = 6, rewards 7, −3 and 5, α = 1/4, γ = 1/2.
 RUN = {
@@ -140,3 +141,11 @@ def test_of_a_list_of_more_than_24_nothing_is_tried() -> None:
                               "12th of the numbers"]  # fmt: skip
     assert len(left_out) == 24
     assert not list(misread(List(numbers=(0,) * 25)))
+
+
+@pytest.mark.parametrize(("place", "word"), [
+    (0, "first"), (9, "tenth"), (10, "11th"), (11, "12th"), (12, "13th"), (20, "21st"), (21, "22nd"), (22, "23rd"),
+    (110, "111th"), (120, "121st"),
+])  # fmt: skip
+def test_places_are_counted_as_people_count(place: int, word: str) -> None:
+    assert ordinal(place) == word
