@@ -166,14 +166,29 @@ def _in_costs(given: Given) -> str:
     return f"$P$ is the {what} of the value; for the cost-to-go, $S = −P$, it reads {riccati}."
 
 
-def _which(given: Given, value: str, product: Value, cost: Value) -> str:
-    """Why one of the two roots is the value: their product is not positive."""
+def _which(given: Given, value: str, product: Value, cost: Value, *, rests: bool) -> str:
+    """Why one of the two roots is the value: their product is not positive.
+
+    Args:
+        given: the problem.
+        value: the letter of the value.
+        product: what the two roots multiply to.
+        cost: $Q R − N^2$.
+        rests: whether the state goes to 0 with the root 0, if that is one.
+    """
     what, never, side = ("cost", "negative", "positive") if given.notation.costs else ("reward", "positive", "negative")
-    one = f"is negative, so one of them is {side}" if product != 0 else f"is $0$, so at most one of them is {side}"
+    if product == 0 and not rests:
+        return f"One of the two roots is $0$, with which the state would not come to rest: ${value}$ is the other one."
+    one = (
+        f"is negative, so one of them is {side}"
+        if product != 0
+        else f"is $0$, so one of them is, and the other {never}"
+    )
     why = f", since $Q R − N^2 = {told(cost)}$ is not negative" if given.N else ""
+    root = "that root" if product != 0 else "$0$"
     return (
         f"The product of the two roots, ${told(product)}$, {one}. No {what} is {never}{why}, and neither is a sum "
-        f"of them: ${value}$ is that root."
+        f"of them: ${value}$ is {root}."
     )
 
 
@@ -222,7 +237,9 @@ def _root(work: Work, given: Given, numbers: Mapping[str, fmpq], modes: Modes = 
     if mode <= 1:
         squares = q * r - n * n
         product = -squares / (gamma * b * b)
-        work.say(_which(given, _letter(given.notation.value, modes, mode), product, squares))
+        work.say(
+            _which(given, _letter(given.notation.value, modes, mode), product, squares, rests=gamma * left * left < 1)
+        )
     found: Value = work.step(system.root, **known)
     if is_rational(found) and found != 0 and (other := (n * n - q * r) / (gamma * b * b * found)) != 0:
         side = "negative" if given.notation.costs else "positive"

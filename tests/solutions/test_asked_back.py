@@ -251,3 +251,16 @@ def test_one_return_is_not_asked_for_in_an_order() -> None:
     exercise = rldrill.read({"family": "return", "given": {"rewards": 3, "gamma": "1/2"}})
     assert exercise.parts[0].ask == "What is the return $R_0$?"
     assert exercise.check("3").accepted
+
+
+@pytest.mark.parametrize(("A", "root", "said"), [
+    # P² + (A² − 1)P = 0 with B = R = 1 and Q = 0: the roots are 0 and 1 − A².
+    (2, -3, "with which the state would not come to rest: P is the other one."),
+    ("1/2", 0, "so one of them is, and the other positive. No reward is positive, and neither is a sum of them: P is 0."),
+])  # fmt: skip
+def test_a_state_that_costs_nothing_is_brought_to_rest_where_it_does_not_go_there(
+    A: object, root: int, said: str
+) -> None:
+    exercise = rldrill.read({"family": "lqr-infinite", "given": {"A": [[A]], "B": [[1]], "Q": [[0]], "R": [[1]]}})
+    assert exercise.answers()["a"] == ((root,),)
+    assert said in " ".join(str(exercise.working("a")).split())
