@@ -256,7 +256,7 @@ def test_one_return_is_not_asked_for_in_an_order() -> None:
 @pytest.mark.parametrize(("A", "root", "said"), [
     # P² + (A² − 1)P = 0 with B = R = 1 and Q = 0: the roots are 0 and 1 − A².
     (2, -3, "with which the state would not come to rest: P is the other one."),
-    ("1/2", 0, "so one of them is, and the other positive. No reward is positive, and neither is a sum of them: P is 0."),
+    ("1/2", 0, "so one of them is, and the other positive. No reward is positive, and neither is a sum of them: P"),
 ])  # fmt: skip
 def test_a_state_that_costs_nothing_is_brought_to_rest_where_it_does_not_go_there(
     A: object, root: int, said: str
