@@ -78,6 +78,10 @@ class Given(ActionRun):
         self.demand_last_action("Sarsa")
         if self.instead is not None and self.instead.action not in self.values.get(self.instead.state, {}):
             raise ValueError(f"instead: {self.instead.action!r} has no value in {self.instead.state!r}; add it")
+        if self.instead is not None and self.changed == self.values:
+            raise ValueError("instead: that is the value that it has; give another one")
+        if self.instead is not None and self.gamma == 0:
+            raise ValueError("instead: with γ = 0 no value counts; give a discount above 0")
         if self.known is None:
             return self
         if not isinstance(self.alpha, Parameter):

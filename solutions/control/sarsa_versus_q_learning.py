@@ -6,6 +6,7 @@ from typing import Any
 from rldrill.problems.control.sarsa_versus_q_learning import (
     METHODS,
     Given,
+    Other,
     comes_back,
     first_that_reads_again,
     method,
@@ -154,7 +155,7 @@ def _change(given: Given, other: Given, work: Work, formula: Formula, alpha: Val
     name, why = (
         ("Sarsa", "none of them takes the value of this action")
         if formula is SARSA_TARGET
-        else ("Q-learning", "in none of them is this value the greatest")
+        else ("Q-learning", f"in none of them is this value {_greater(given, needed(given.instead))}")
     )
     steps = []
     for run in (given, other):
@@ -172,6 +173,13 @@ def _change(given: Given, other: Given, work: Work, formula: Formula, alpha: Val
         moved.append(new)
     work.say(f"{name}'s targets would stay the same: {why}.")
     return False
+
+
+def _greater(given: Given, other: Other) -> str:
+    """What a value is not, neither as it is nor as it might be, if the greatest in its state stays what it is."""
+    row = given.values[other.state]
+    most = max((value for action, value in row.items() if action != other.action), default=None)
+    return "greater than all others" if most in (row[other.action], other.value) else "the greatest"
 
 
 def _step_size(given: Given, work: Work, formula: Formula) -> Value:

@@ -264,3 +264,24 @@ def test_a_state_that_costs_nothing_is_brought_to_rest_where_it_does_not_go_ther
     exercise = rldrill.read({"family": "lqr-infinite", "given": {"A": [[A]], "B": [[1]], "Q": [[0]], "R": [[1]]}})
     assert exercise.answers()["a"] == ((root,),)
     assert said in " ".join(str(exercise.working("a")).split())
+
+
+COMPARED = {
+    "trajectory": {"states": ["A", "B"], "actions": ["l", "l"], "rewards": [1]}, "word": "on-policy", "gamma": "1/2",
+    "values": {"A": {"l": 0, "r": 0}, "B": {"l": 8, "r": 4}}, "alpha": "1/2",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("other", "why"), [(8, "greater than all others"), (6, "the greatest")])
+def test_a_value_that_is_as_great_as_another_is_the_greatest(other: int, why: str) -> None:
+    exercise = rldrill.read({"family": "sarsa-versus-q-learning", "given": COMPARED | {"instead": ["B", "r", other]}})
+    assert f"in none of them is this value {why}." in " ".join(str(exercise.working()).split())
+
+
+@pytest.mark.parametrize(("change", "says"), [
+    ({"instead": ["B", "r", 4]}, "that is the value that it has"),
+    ({"instead": ["B", "r", 9], "gamma": 0}, "no value counts"),
+])  # fmt: skip
+def test_another_value_is_another_and_counts(change: dict[str, Any], says: str) -> None:
+    with pytest.raises(FileError, match=says):
+        rldrill.read({"family": "sarsa-versus-q-learning", "given": COMPARED | change})
