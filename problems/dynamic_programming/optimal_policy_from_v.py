@@ -13,7 +13,7 @@ from rldrill.problems.models import Model, Name, Named, check_state_values, mode
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
-from rldrill.problems.valued import UNITS, check_optimal_values, draw_valued
+from rldrill.problems.valued import UNITS, check_optimal_values, draw_valued, worth
 
 TITLE = "Optimal policy given V"
 SOURCE = "Sutton & Barto 2018, section 3.6"
@@ -41,9 +41,24 @@ class Given(Givens):
             raise ValueError("missing: with a discount of 1 one equation need not give a value; choose a smaller one")
         known = self.values if self.missing is None else {**self.values, self.missing: Fraction(0)}
         check_state_values(known, self.mdp)
-        if not self.parameters() and self.missing is None:
-            check_optimal_values(self.values, self.mdp, self.gamma)
+        if not self.parameters():
+            check_optimal_values(self._whole(), self.mdp, self.gamma)
         return self
+
+    def _whole(self) -> dict[str, Fraction]:
+        """All values, with the one that follows from the others: that of an action which may lead back, x = a + γpx."""
+        if self.missing is None:
+            return self.values
+        best = max(
+            worth(self.mdp, (self.missing, action), self.values, self.gamma)
+            / (1 - self.gamma * self._back(self.missing, action))
+            for action in self.mdp.actions[self.missing]
+        )
+        return {**self.values, self.missing: best}
+
+    def _back(self, state: str, action: str) -> Fraction:
+        rows = self.mdp.outcomes[state, action]
+        return sum((Fraction(row.probability) for row in rows if row.next == state), Fraction(0))
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -69,8 +84,8 @@ def _looks_ahead(mdp: Model, policy: dict[str, str], values: dict[str, Fraction]
     next_values = {pair: values.get(row.next, Fraction(0)) for pair, row in rows.items()}
     rewards = {pair: Fraction(row.reward) for pair, row in rows.items()}
     return all(
-        any(worth[s, policy[s]] < max(worth[s, a] for a in actions) for s, actions in mdp.actions.items())
-        for worth in (rewards, next_values)
+        any(by[s, policy[s]] < max(by[s, a] for a in actions) for s, actions in mdp.actions.items())
+        for by in (rewards, next_values)
     )
 
 

@@ -13,7 +13,7 @@ from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
-from rldrill.solutions.oracle import Answers, at, best_actions, optimal_values, tensors, without_loss
+from rldrill.solutions.oracle import Answers, at, best_actions, tensors, without_loss
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FROM_V, V_STAR_FROM_Q
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -107,15 +107,6 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tup
     best = work.step(V_STAR_FROM_Q, s=state, Q=values, actions=known["actions"])
     work.say(f"The best action in {state} is {action}.")
     return best, values
-
-
-def possible(given: Given) -> bool:
-    """Whether the values that are given are optimal, with the missing one put in."""
-    states, n = (*given.mdp.states, *given.mdp.terminal), len(given.mdp.states)
-    P, R = tensors(given.mdp, states)
-    V = optimal_values(P, R, at(given.gamma), n)
-    return all(abs(V[states.index(state)] - at(value)) < 0.02 * max(1, abs(at(value)))
-               for state, value in given.values.items())  # fmt: skip
 
 
 def oracle(given: Given) -> Answers:

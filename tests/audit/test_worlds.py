@@ -9,7 +9,6 @@ from rldrill.solutions.solution import solver
 
 MOVES = {"transitions": [["a", "x", "b", 1, 3], ["a", "y", "a", 1, 12]]}
 EVEN = {"a": {"x": "1/2", "y": "1/2"}}
-CHAIN = {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "a", 1, 0], ["b", "x", "end", 1, 6]], "terminal": ["end"]}
 
 
 def found_discount(value: int) -> dict[str, Any]:
@@ -50,10 +49,6 @@ def ahead(value: int) -> dict[str, Any]:
     return {"lookahead": {"dynamics": rows, "values": {"a": value, "b": 6, "c": 2}}, "gamma": 1}  # 3 and 8
 
 
-def known(value: object) -> dict[str, Any]:
-    return {"mdp": CHAIN, "values": {"a": value}, "missing": "b", "gamma": "1/2"}  # V(b) = 6, V(a) = 1 + 3
-
-
 @pytest.mark.parametrize(
     ("name", "given", "possible"),
     [
@@ -77,8 +72,6 @@ def known(value: object) -> dict[str, Any]:
         ("feature-expectations-policy", matched(3), False),
         ("advantage", ahead(6), True), ("advantage", ahead(2), False), ("advantage", ahead(9), False),
         ("advantage", ahead(3), True), ("advantage", ahead(8), True),
-        ("optimal-policy-from-v", known(4), True), ("optimal-policy-from-v", known(10), False),
-        ("optimal-policy-from-v", known("403/100"), True),
     ],
 )  # fmt: skip
 def test_what_can_be_and_what_cannot(name: str, given: dict[str, Any], possible: bool) -> None:

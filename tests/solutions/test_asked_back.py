@@ -285,3 +285,15 @@ def test_a_value_that_is_as_great_as_another_is_the_greatest(other: int, why: st
 def test_another_value_is_another_and_counts(change: dict[str, Any], says: str) -> None:
     with pytest.raises(FileError, match=says):
         rldrill.read({"family": "sarsa-versus-q-learning", "given": COMPARED | change})
+
+
+def test_the_other_values_are_optimal_with_the_one_that_is_missing() -> None:
+    """B is worth 10 or 2 + A/2, and A is 4 or 1 + B/2."""
+    rows = [["A", "a", "B", 1, 1], ["A", "b", "end", 1, 4], ["B", "a", "A", 1, 2], ["B", "b", "end", 1, 10]]
+    given = {"mdp": {"transitions": rows, "terminal": ["end"]}, "gamma": "1/2", "missing": "B"}
+    right: dict[str, Any] = {"family": "optimal-policy-from-v", "given": given | {"values": {"A": 6}}}
+    assert rldrill.read(right).answers() == {"a": 10, "b": {"A": "a", "B": "b"}}
+    right["given"]["values"] = {"A": "6.03"}  # rounded
+    assert rldrill.read(right).answers() == {"a": 10, "b": {"A": "a", "B": "b"}}
+    with pytest.raises(FileError, match="'A' is given as 100, but its best action is worth 27"):
+        rldrill.read({"family": "optimal-policy-from-v", "given": given | {"values": {"A": 100}}})
