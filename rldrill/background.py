@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 
 def in_background(work: Callable[[], None]) -> Thread:
-    """Start a thread that Ctrl-C passes by: else it may reach this one, and the prompt would not hear of it."""
+    """Start a thread that Ctrl-C and ``fg`` pass by: the prompt is to hear of them."""
     thread = Thread(target=work, daemon=True)
     with deaf():
         thread.start()
@@ -22,11 +22,12 @@ def in_background(work: Callable[[], None]) -> Thread:
 
 @contextmanager
 def deaf() -> Iterator[None]:
-    """What is started here does not hear Ctrl-C: that is for the thread that waits for it."""
+    """What is started here hears neither Ctrl-C nor ``fg`` nor of another size: the thread that asks waits for them."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # what is new has the mask of what started it
+    # What is new has the mask of what started it.
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGCONT, signal.SIGWINCH})
     try:
         yield
     finally:
