@@ -25,7 +25,17 @@ def exercise() -> Exercise:
 
 
 def test_dir_shows_exactly_what_there_is() -> None:
-    classes = ["Exercise", "FileField", "Graded", "GradedPart", "Outcome", "UserError", "Verdict"]
+    classes = [
+        "Exercise",
+        "FileError",
+        "FileField",
+        "Graded",
+        "GradedPart",
+        "Outcome",
+        "UsageError",
+        "UserError",
+        "Verdict",
+    ]
     offered = [*classes, "__version__", "draw", "families", "fields", "load", "read"]
     assert dir(rldrill) == offered
     assert all(hasattr(rldrill, name) for name in offered)
