@@ -11,7 +11,11 @@ import pytest
 
 @contextmanager
 def zone(name: str) -> Iterator[None]:
-    """Be in the zone of that name; where a process has no zone of its own the test is passed over."""
+    """Be in the zone of that name.
+
+    Windows has one zone for all processes and no ``tzset``: only there the test is passed over, and the others, of
+    ``.ci/run`` among them, run it.
+    """
     if not hasattr(time, "tzset"):
         pytest.skip("the zone of a process cannot be set here")
     try:
