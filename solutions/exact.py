@@ -193,8 +193,8 @@ def terms(value: Any) -> int:
 
 
 def told(value: Value) -> str:
-    """A rational number as mathematics, for a sentence."""
-    return str(value).replace("-", "−")
+    """A number as mathematics, for a sentence; a closed form as a decimal."""
+    return str(f"about {decimal(value)}" if is_closed(value) else value).replace("-", "−")
 
 
 def digits(value: Value) -> int:
