@@ -208,7 +208,7 @@ def _begun(blueprint: Path, saved: Path, seed: int | None) -> "Exam":
                 f"{saved} holds another exam that was begun, {begun.head.title!r}; name another file with --answers."
             )
         return begun
-    planned = plan(read_blueprint(blueprint).but(seed=seed, versions=1))
+    planned = plan(read_blueprint(blueprint).but(seed=seed))
     return planned if begin(saved, written(manifest(planned))) else read_manifest(saved)
 
 

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from rich.console import Console
 
 from rldrill.commands.quiz import _begun
-from rldrill.exam.blueprint import Blueprint, Entry
+from rldrill.exam.blueprint import Blueprint, Entry, read_blueprint
 from rldrill.exam.exam import Exam
 from rldrill.exam.manifest import manifest, read_manifest, written
 from rldrill.exam.planning import plan
@@ -424,3 +424,13 @@ def test_another_blueprint_does_not_go_on_with_an_exam_that_was_begun(tmp_path: 
         _begun(tmp_path / "b.toml", saved, None)
     with pytest.raises(UsageError, match="holds another exam"):
         _begun(tmp_path / "a.toml", saved, begun.seed + 1)
+
+
+def test_a_blueprint_that_is_sat_is_the_exam_that_is_printed_from_it_in_all_its_versions(tmp_path: Path) -> None:
+    path = tmp_path / "exam.toml"
+    path.write_text('seed = 5\nversions = 3\n[[problems]]\nfamily = "return"\n', encoding="utf-8")
+    printed = plan(read_blueprint(path))
+    begun = _begun(path, tmp_path / "exam-answers.json", None)
+    names = [[exercise.id for exercise in version.exercises] for version in printed.versions]
+    assert len({*map(tuple, names)}) == 3
+    assert [[exercise.id for exercise in version.exercises] for version in begun.versions] == names
