@@ -545,7 +545,8 @@ def test_what_an_option_would_not_do_is_refused(tmp_path: Path) -> None:
     roster = tmp_path / "course.csv"
     roster.write_text("name,number\nAda,1\n")
     assert "leave --versions out" in refused("return", "--roster", roster, "--versions", 2)
-    assert "leave the rest out" in refused("--init", tmp_path / "new.toml", "return", "-n", 3)
+    for option in (["return"], ["-n", 3], ["--paper", "letter"], ["--no-ids"], ["-o", "x.pdf"], ["--seed", 0]):
+        assert "leave the rest out" in refused("--init", tmp_path / "new.toml", *option)
     assert not (tmp_path / "new.toml").exists()
 
 

@@ -112,7 +112,22 @@ def command(
         "notation": notation,
     }
     if init is not None:
-        if any((names, count, minutes, level, exclude, seed is not None, versions, roster, title, source, key)):
+        others = (
+            names,
+            count,
+            minutes,
+            level,
+            exclude,
+            versions,
+            roster,
+            title,
+            source,
+            key,
+            output,
+            format_,
+            secret_file,
+        )
+        if any((*others, seed is not None, *(value is not None for value in changes.values()))):
             raise UsageError("--init writes a blueprint to fill in; leave the rest out, and write it there.")
         _write_template(init, force=force)
         written = [init]
