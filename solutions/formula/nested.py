@@ -9,7 +9,7 @@ from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.choices import Choice
 from rldrill.solutions.formula.nodes.leaves import Leaf, computed
 from rldrill.solutions.formula.nodes.sets import MaxOf
-from rldrill.solutions.formula.putting_in import evaluated, reduced
+from rldrill.solutions.formula.putting_in import evaluated, numbers_first, reduced
 
 #: So many products and powers in a bracket are not worked out in the same line as brackets in them.
 _SEVERAL = 2
@@ -25,7 +25,9 @@ def choices_first(expression: Expr) -> Expr:
     arguments = [
         _chosen(argument) if isinstance(argument, Choice) else choices_first(argument) for argument in expression.args
     ]
-    return expression._from_args(arguments) if expression.is_Add or expression.is_Mul else expression
+    if expression.is_Mul:
+        return numbers_first(Mul._from_args(arguments))
+    return Add._from_args(arguments) if expression.is_Add else expression
 
 
 def _chosen(choice: Expr) -> Expr:

@@ -166,7 +166,7 @@ def test_of_quotients_with_one_numerator_the_denominators_are_equal() -> None:
 def test_the_greatest_number_is_chosen_before_the_bracket_around_it_is_worked_out() -> None:
     step = total(12, times(HALF, total(4, times(P, MaxOf(leaf(4), leaf(-6))), times(-1, 12))))
     lines = [shown(line) for line in lines_between(step, own=False)]
-    assert lines[0] == "12 + 1/2·(4 + p·4 − 12)"
+    assert lines[0] == "12 + 1/2·(4 + 4p − 12)"
 
 
 def test_a_maximum_of_sums_is_not_chosen_before_they_are_worked_out() -> None:
