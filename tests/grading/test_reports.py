@@ -268,3 +268,11 @@ def test_the_verdict_is_the_same_whether_it_is_searched_for_causes(tmp_path: Pat
     searched, judged = (verify([path], Settings(rules=Rules(causes=causes))).students for causes in (True, False))
     assert [student.parts[1].judged.verdict for student in searched] == ["wrong", "close"]
     assert [student.parts[1].judged.verdict for student in judged] == ["wrong", "close"]
+
+
+def test_a_dictionary_as_python_prints_it_keeps_its_quotes_in_a_cell(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"  # V(worn) = 21/4; a mark before a text, as spreadsheets put it, is no part of it
+    typed = ["{'worn': '21/4'}", "['21/4']", "'21/4", '"=""21/4"""']
+    rows = "".join(f"{number},td-zero/1/62590,a,{text}\n" for number, text in enumerate(typed))
+    path.write_text(f"student,problem,part,answer\n{rows}")
+    assert [student.parts[0].judged.verdict for student in verify([path]).students] == ["right"] * len(typed)
