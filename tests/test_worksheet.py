@@ -602,6 +602,12 @@ def test_a_family_at_a_level_is_a_problem_as_often_as_it_is_named(tmp_path: Path
     assert [problem["level"] for problem in version["problems"]] == [1, 1, 2]
 
 
+@pytest.mark.parametrize("option", [["-n", 3], ["--level", 2]])
+def test_where_all_problems_are_named_nothing_says_what_else_is_drawn(tmp_path: Path, option: list[str | int]) -> None:
+    said = f"All problems are named; leave {option[0]} out"
+    assert said in refused("td-zero/1/7", "return/1", *option, "-o", tmp_path / "x.json")
+
+
 @pytest.mark.parametrize("names", [["td-zero/1/7", "return"], ["td-zero/1/7", "return/1"]])
 def test_no_more_problems_are_named_than_are_wanted(tmp_path: Path, names: list[str]) -> None:
     assert "2 problems are named, and -n asks for 1" in refused(*names, "-n", 1, "-o", tmp_path / "x.json")
