@@ -1,5 +1,6 @@
 """Sitting an exam: back and forth, nothing judged before the end, and the same points as verify gives."""
 
+import json
 import tomllib
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
@@ -434,3 +435,22 @@ def test_a_blueprint_that_is_sat_is_the_exam_that_is_printed_from_it_in_all_its_
     names = [[exercise.id for exercise in version.exercises] for version in printed.versions]
     assert len({*map(tuple, names)}) == 3
     assert [[exercise.id for exercise in version.exercises] for version in begun.versions] == names
+
+
+def test_who_sits_it_stays_in_the_file_and_problems_may_be_called_by_their_numbers(tmp_path: Path) -> None:
+    planned = plan(Blueprint(problems=PROBLEMS[:2], seed=1))
+    path = tmp_path / "answers.toml"
+    sit(Sitting(planned, planned.versions[0], path, START), "1/8", "leave")
+    first, second = (f"[{json.dumps(exercise.id)}]" for exercise in planned.versions[0].exercises)
+    written_ = path.read_text(encoding="utf-8")
+    head, _, rest = written_.partition(first)
+    path.write_text(f'{head}student = "Ann"\nnumber = 7\n[1]{rest.partition(second)[0]}', encoding="utf-8")
+    again = Sitting(planned, planned.versions[0], path, START)
+    again.resume()
+    assert list(again.answers.values()) == ["1/8"]
+    sit(again, "leave")
+    again.answer(again.places[1], "3")
+    again.save()
+    kept = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert (kept["student"], kept["number"]) == ("Ann", "7")
+    assert kept[planned.versions[0].exercises[0].id]["a"] == "1/8"
