@@ -201,14 +201,13 @@ def _begun(blueprint: Path, saved: Path, seed: int | None) -> "Exam":
     """The exam of a blueprint, drawn when it is begun for the first time, in whichever terminal that is."""
     from rldrill.exam.blueprint import read_blueprint
     from rldrill.exam.manifest import manifest, read_manifest, written
-    from rldrill.exam.planning import plan
+    from rldrill.exam.planning import can_be_of, plan
     from rldrill.problems.errors import UsageError
     from rldrill.writing import begin
 
     if saved.exists():
-        begun, asked = read_manifest(saved), read_blueprint(blueprint)
-        same = all(getattr(begun.head, name) == getattr(asked.head, name) for name in ("title", "course", "date"))
-        if not same or (seed is not None and seed != begun.seed):
+        begun = read_manifest(saved)
+        if not can_be_of(begun, read_blueprint(blueprint).but(seed=seed)):
             raise UsageError(
                 f"{saved} holds another exam that was begun, {begun.head.title!r}; name another file with --answers."
             )

@@ -454,3 +454,25 @@ def test_who_sits_it_stays_in_the_file_and_problems_may_be_called_by_their_numbe
     kept = tomllib.loads(path.read_text(encoding="utf-8"))
     assert (kept["student"], kept["number"]) == ("Ann", "7")
     assert kept[planned.versions[0].exercises[0].id]["a"] == "1/8"
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        '[[problems]]\nid = "td-zero/1/62590"\n[[problems]]\nfamily = "td-zero"\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "sarsa"\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\ncount = 2\n',
+        '[[problems]]\nid = "return/1/430"\n',
+        'seed = 6\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
+    ],
+)
+def test_next_weeks_quiz_of_the_same_title_does_not_go_on_with_this_weeks(tmp_path: Path, other: str) -> None:
+    path, saved = tmp_path / "exam.toml", tmp_path / "exam-answers.json"
+    text = 'duration = 10\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n'
+    path.write_text(f"seed = 5\n{text}", encoding="utf-8")
+    begun = _begun(path, saved, None)
+    path.write_text(text.replace("10", "20"), encoding="utf-8")  # more time is no other exam
+    assert _begun(path, saved, None).versions == begun.versions
+    path.write_text(other, encoding="utf-8")
+    with pytest.raises(UsageError, match="holds another exam that was begun"):
+        _begun(path, saved, None)
