@@ -513,3 +513,24 @@ def test_every_number_beside_a_logarithm_of_a_letter_has_three_digits(typed: str
     x = sympy.Symbol("x", positive=True)
     reading = read_number(typed, ["x"])
     assert is_right(reading.value, sympy.log(2) + sympy.log(x), rounded=reading.decimal) is right
+
+
+@pytest.mark.parametrize(
+    ("typed", "right"),
+    [
+        ("(2310 - 1510q)/(211 - 156q)", True),  # 2309 and 1512 to three digits
+        ("(2.31 - 1.51q)/(0.211 - 0.156q)", True),
+        ("(2330 - 1510q)/(211 - 156q)", False),
+        ("(2310 - 1510q)/(212 - 156q)", False),
+        ("(2310 - 1520q)/(211 - 156q)", False),
+    ],
+)
+def test_every_number_of_a_quotient_has_three_digits_as_it_is_written(typed: str, right: bool) -> None:
+    key = read_number("(2309 - 1512q)/(211 - 156q)", ["q"]).value
+    assert is_right(read_number(typed, ["q"]).value, key) is right
+
+
+@pytest.mark.parametrize("typed", ["0.334 x + 0.5", "2.01/(1 - x)", "2.01 x + 3.01", "2.01/x"])
+def test_a_number_that_is_not_written_gives_no_room(typed: str) -> None:
+    for key in ("x/3 + 1/2", "2/(1 - x)", "2x + 3", "2/x"):
+        assert not is_right(read_number(typed, ["x"]).value, read_number(key, ["x"]).value)
