@@ -186,10 +186,13 @@ def _(value: sympy.Expr) -> int:
 
 
 def terms(value: Any) -> int:
-    """How many terms the longer polynomial has of a quotient in a parameter that is left open; 0 for what is none."""
-    if not isinstance(value, RationalFunction):
+    """About how many terms the longer polynomial has of a quotient in what is left open; 0 where nothing is."""
+    if isinstance(value, RationalFunction):
+        return max(sum(coefficient != 0 for coefficient in poly.coeffs()) for poly in (value.top, value.bottom))
+    letters = value.free_symbols if is_closed(value) else ()
+    if len(letters) < 2:
         return 0
-    return max(sum(coefficient != 0 for coefficient in poly.coeffs()) for poly in (value.top, value.bottom))
+    return sum(part.is_Symbol for part in sympy.preorder_traversal(value)) // len(letters)
 
 
 def told(value: Value) -> str:

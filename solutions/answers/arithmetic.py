@@ -27,6 +27,7 @@ from rldrill.solutions.rational import generator
 from rldrill.solutions.value import NotReal
 
 _EFFORT = 3000  # in hundredths of a millisecond, as measured
+_ENTRIES = 2, 16  # so many share that effort, and so many have as much each
 _CONVERSION = 30
 _BITS = 4000
 _RATIONAL_BITS = 14_000  # of a quotient of the longest whole numbers
@@ -43,10 +44,15 @@ _DEEP = "Functions stand too deep in one another; write it in a simpler form."
 
 
 class Arithmetic:
-    """Sums, products, powers and functions of exact numbers, until a fixed effort is used up."""
+    """Sums, products, powers and functions of exact numbers, until a fixed effort is used up.
 
-    def __init__(self) -> None:
-        self._left = _EFFORT
+    Args:
+        entries: how many numbers are read with it.
+    """
+
+    def __init__(self, entries: int = 1) -> None:
+        together, most = _ENTRIES
+        self._left = _EFFORT * max(together, min(entries, most)) // together
 
     def parameter(self, name: str) -> Value:
         """An open parameter, by its name in files."""

@@ -238,7 +238,7 @@ def _matrix(
         rows = plain_rows(body, spaced=shape not in (None, (1, 1)), column=column)
     if len(rows) > (most := max(_ENTRIES, *shape or (1,))):
         raise source.unreadable(f"More than {most} rows were typed; leave out those that were not asked for.")
-    arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
+    arithmetic, alone = Arithmetic(sum(map(len, rows))), len(rows) == len(rows[0]) == 1
     nothing = all(left_out(entry) for row in rows for entry in row)
 
     def read_row(number: int, row: list[Source]) -> tuple[Reading | None, ...]:
@@ -300,7 +300,7 @@ def read_table(
             readings = _numbers(flat, parameters, "entry {}".format if len(flat) != 1 else None)
             needed = f"{len(keys)} {_are(len(keys))} needed: {listed(map(shown, keys))}."
             raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), len(keys))}")
-    arithmetic = Arithmetic()
+    arithmetic = Arithmetic(len(found))
     given = {key: entry for key, entry in found.items() if not left_out(entry)} or found
     return {key: _numbers([entry], parameters, partial(_place, key), arithmetic)[0] for key, entry in given.items()}
 
@@ -677,7 +677,7 @@ def _numbers(
     """Read some entries with one effort; ``place`` names an entry by its number, counted from 1."""
     if len(entries) > most:
         raise Unreadable(f"More than {most} numbers were typed; leave out those that were not asked for.")
-    arithmetic = arithmetic or Arithmetic()
+    arithmetic = arithmetic or Arithmetic(len(entries))
     readings = []
     for i, entry in enumerate(entries, 1):
         try:

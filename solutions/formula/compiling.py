@@ -10,7 +10,20 @@ import sympy
 from flint import fmpq
 from sympy import Expr
 
-from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, equal, largest, monomial, simplest
+from rldrill.solutions.exact import (
+    ONE,
+    NoSolution,
+    NotGiven,
+    Value,
+    equal,
+    is_closed,
+    is_zero,
+    largest,
+    monomial,
+    parameters,
+    sign,
+    simplest,
+)
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.limits import raised, rooted
 from rldrill.solutions.matrices import is_matrix
@@ -39,7 +52,9 @@ def python(expression: Expr) -> str:
         return _product(expression.args)
     if expression.is_Pow:
         return _power(*expression.args)
-    function = "pi" if expression is sympy.pi else expression.func.__name__
+    if expression in (sympy.nan, sympy.zoo, sympy.oo):
+        raise NoSolution("an expression divides by 0, whatever numbers are put in")
+    function = _CONSTANTS.get(expression) or expression.func.__name__
     if function not in _NAMES:
         raise TypeError(f"{function!r} is not a function that is computed with")
     return f"{function}({', '.join(map(python, expression.args))})" if expression.args else function
@@ -58,8 +73,11 @@ def _product(factors: Sequence[Expr]) -> str:
 def _power(base: Expr, exponent: Expr) -> str:
     if exponent is sympy.S.NegativeOne:
         return f"inverse({python(base)})"
-    if exponent.is_Rational and exponent.q == 2:
-        root = f"root({python(base)})**{abs(exponent.p)}"
+    if exponent.is_Rational and exponent.q > 1:
+        roots = int(exponent.q).bit_length() - 1
+        if exponent.q != 2**roots:
+            raise NoSolution(f"there are square roots, and no power of {exponent}")
+        root = f"{'root(' * roots}{python(base)}{')' * roots}**{abs(exponent.p)}"
         return f"inverse({root})" if exponent.is_negative else f"({root})"
     if exponent.is_Integer and exponent.is_negative:
         return f"inverse(({python(base)})**{-exponent})"
@@ -79,13 +97,17 @@ class DivisionError(NoSolution):
 
 def _inverse(value: Any) -> Any:
     try:
-        return ONE / value if type(value) is fmpq or not is_matrix(value) else value.inv()
+        if type(value) is not fmpq and is_matrix(value):
+            return value.inv()
+        if is_closed(value) and not parameters(value) and is_zero(value):  # sympy's quotient has no value then
+            raise ZeroDivisionError
+        return ONE / value
     except ZeroDivisionError:
         raise DivisionError("it would divide by zero, or invert a singular matrix") from None
 
 
 def _root(value: Value) -> Value:
-    if isinstance(value, fmpq) and value < 0:
+    if not parameters(value) and sign(value) < 0:
         raise NoSolution("there is no root of a negative number")
     return simplest(sympy.sqrt(sympy.sympify(rooted(value), strict=True)))
 
@@ -108,10 +130,10 @@ def _log(value: Value) -> Value:
 
 @cache
 def _circular(function: Callable[[Expr], Expr], angle: Value) -> Value:
-    value = simplest(function(sympy.sympify(angle, strict=True)))
+    value = function(sympy.sympify(angle, strict=True))
     if value is sympy.zoo:
         raise NoSolution("the tangent of a right angle does not exist")
-    return value
+    return simplest(value.replace(sympy.cot, lambda rest: 1 / sympy.tan(rest)))
 
 
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
@@ -133,8 +155,10 @@ _NAMES = {
     "cos": partial(_circular, sympy.cos),
     "tan": partial(_circular, sympy.tan),
     "pi": sympy.pi,
+    "e": sympy.E,
     "Rational": fmpq,
 }
+_CONSTANTS = {sympy.pi: "pi", sympy.E: "e"}
 
 
 def needs(expression: Expr) -> tuple[str, ...]:

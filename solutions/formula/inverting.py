@@ -1,8 +1,11 @@
 """An inverse in a step, as it is worked out by hand: one over a number, the adjugate over the determinant."""
 
+from typing import Any
+
 import sympy
 from sympy import Expr, Mul
 
+from rldrill.solutions.exact import is_zero, tidy
 from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, computed
 
 
@@ -18,7 +21,7 @@ def inverted(expression: Expr) -> Expr:
     for factor in factors:
         if _is_inverse(factor):
             matrix = factor.args[0].args[0]
-            number = number / sympy.radsimp(matrix.det())
+            number = number / sympy.radsimp(_determinant(matrix))
             if matrix.rows == 2:
                 (a, b), (c, d) = matrix.tolist()
                 kept.append(MatrixLeaf([[d, -b], [-c, a]]))
@@ -35,4 +38,12 @@ def _is_inverse(factor: Expr) -> bool:
     if not (factor.is_Pow and factor.args[1] == -1 and isinstance(factor.args[0], MatrixLeaf)):
         return False
     matrix = factor.args[0].args[0]
-    return bool(matrix.shape in ((1, 1), (2, 2)) and not matrix.free_symbols and matrix.det() != 0)
+    return bool(matrix.shape in ((1, 1), (2, 2)) and not matrix.free_symbols and not is_zero(_determinant(matrix)))
+
+
+def _determinant(matrix: sympy.ImmutableMatrix) -> Any:
+    """That of a 1×1 or 2×2 matrix; sympy's own looks long for what cancels in it."""
+    if matrix.rows == 1:
+        return matrix[0, 0]
+    (a, b), (c, d) = matrix.tolist()
+    return tidy(sympy.expand(a * d - b * c))

@@ -378,7 +378,8 @@ def _worked_out_above(factors: list[Expr]) -> list[Expr]:
     above = [factor for factor in factors if factor != -1 and not is_below(factor)]
     if not below or len(above) < 2 or not all(_is_rational(factor) for factor in factors):
         return factors
-    return [*factors[: factors[0] == -1], computed(evaluated(Mul(*above, evaluate=False))), *below]
+    odd = factors.count(sympy.S.NegativeOne) % 2  # a bracket (0 − 1) is a −1, too
+    return [*[sympy.S.NegativeOne] * odd, computed(evaluated(Mul(*above, evaluate=False))), *below]
 
 
 def _is_rational(factor: Expr) -> bool:

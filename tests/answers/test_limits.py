@@ -5,7 +5,7 @@ from flint import fmpq
 
 from rldrill.problems.grammar import read
 from rldrill.problems.latex import typed
-from rldrill.solutions.answers.text import Unreadable, read_number, read_table, read_vector
+from rldrill.solutions.answers.text import Unreadable, read_matrix, read_number, read_table, read_vector
 
 #: The largest that is read, the smallest that is not, and what is said of it.
 LIMITS = {
@@ -90,3 +90,9 @@ def test_a_quotient_of_long_whole_numbers_is_read() -> None:
 )
 def test_what_stands_side_by_side_is_not_nested(term: str) -> None:
     assert read(typed(" + ".join([term] * 45), 2000))
+
+
+def test_a_matrix_of_closed_forms_is_read_as_its_rows_are() -> None:
+    entry = "-3*sin(2)/4 - cos(2)/2"
+    matrix = read_matrix(f"[{entry} {entry} {entry}; {entry} {entry} {entry}; {entry} {entry} {entry}]", (3, 3))
+    assert len({cell.value for row in matrix for cell in row if cell is not None}) == 1

@@ -11,7 +11,7 @@ from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.lines import lines_between
 from rldrill.solutions.formula.nested import choices_first, inner_brackets_first
 from rldrill.solutions.formula.nodes.choices import Greatest
-from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, leaf
+from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, Slot, leaf
 from rldrill.solutions.formula.nodes.matrices import Blocks
 from rldrill.solutions.formula.nodes.sets import MaxOf
 from rldrill.solutions.formula.typesetting import alone
@@ -172,3 +172,10 @@ def test_the_greatest_number_is_chosen_before_the_bracket_around_it_is_worked_ou
 def test_a_maximum_of_sums_is_not_chosen_before_they_are_worked_out() -> None:
     assert shown(choices_first(times(HALF, MaxOf(total(1, 2), leaf(4))))) == "1/2·max{1 + 2; 4}"
     assert shown(choices_first(MaxOf(leaf(4), leaf(2)))) == "max{4; 2}"
+
+
+def test_a_bracket_that_comes_to_minus_one_above_the_line_turns_the_sign() -> None:
+    # −(2·3·(0 − 1))/(1 + 2)² = 6/9
+    step = times(-1, 2, 3, total(Slot(sympy.S.Zero), -1), power(power(total(1, 2), 2), -1))
+    assert "6/9" in map(shown, lines_between(step, own=False))
+    assert "−6/9" not in map(shown, lines_between(step, own=False))

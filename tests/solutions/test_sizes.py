@@ -134,3 +134,18 @@ def test_a_root_of_a_number_that_nobody_writes_is_refused_before_it_is_drawn() -
     given = {"expert": points[0], "first": points[1], "policies": points[2:]}
     with pytest.raises(rldrill.UserError, match="numbers of more than 2000 digits"):
         rldrill.read({"family": "apprenticeship", "given": given})
+
+
+def test_several_letters_are_bounded_too() -> None:
+    """Every state goes on to one of two others with a chance of its own: each more multiplies what is written."""
+    states = "abcdefgh"
+    rows = [
+        [state, action, states[(index + step) % 8], 1, index]
+        for index, state in enumerate(states)
+        for action, step in (("go", 1), ("run", 2))
+    ]
+    letters = ("p", "q", "x", "w", "rho", "beta", "alpha", "lambda")
+    policy = {state: {"go": each, "run": f"1-{each}"} for state, each in zip(states, letters, strict=True)}
+    given = {"mdp": {"transitions": rows}, "policy": policy, "gamma": "gamma"}
+    with pytest.raises(rldrill.UserError, match="polynomials of more than 64 terms"):
+        rldrill.read({"family": "policy-value", "given": given})
