@@ -239,6 +239,8 @@ class Entries(Givens):
         for name, places, width in (("A", self.A, rows), ("B", self.B, columns)):
             if any(not (1 <= row <= rows and 1 <= column <= width) for row, column in places):
                 raise ValueError(f"entries: {name} has {rows} rows and {width} columns; name entries that it has")
+            if len({*places}) < len(places):
+                raise ValueError(f"entries: one of {name} is named twice; name each once")
 
     def part(self, which: str, head: str) -> list[Part]:
         """The part that asks for those of one matrix; none, if there are none."""

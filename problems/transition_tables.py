@@ -45,7 +45,9 @@ def read_transition_table(text: str) -> dict[str, Any]:
         ValueError: a column is missing or unknown, or a line does not fit; the sentence names the line.
     """
     lines = text.splitlines()
-    begin = 1 if lines and re.fullmatch(r"sep=.", lines[0].strip(), re.IGNORECASE) else 0
+    begin = next((number for number, line in enumerate(lines) if line.strip()), 0)
+    if lines and re.fullmatch(r"sep=.", lines[begin].strip(), re.IGNORECASE):
+        begin += 1
     header = re.sub(r"\([^()]*\)", "", lines[begin]) if len(lines) > begin else ""  # R(s,a) is one column
     parted = max(",;\t", key=header.count)
     rows = csv.reader(lines[begin:], delimiter=parted)

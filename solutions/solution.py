@@ -264,10 +264,8 @@ def _check_found(problem: Problem, work: Work) -> None:
     answers = list(work.answers.values())
     for letter, value in work.letters:
         if type(value) is fmpq and value in answers and not _is_in_range(letter, value, problem):
-            raise NoSolution(
-                f"{PARAMETERS.get(letter, letter)} would have to be {told(value)}, and it lies between 0 and 1; change "
-                "what is known"
-            )
+            name, where = PARAMETERS.get(letter, letter), "lies between 0 and 1" if value else "is above 0"
+            raise NoSolution(f"{name} would have to be {told(value)}, and it {where}; change what is known")
 
 
 def _is_in_range(letter: str, value: fmpq, problem: Problem) -> bool:

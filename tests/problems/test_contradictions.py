@@ -618,6 +618,8 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
      "entries: A has 1 rows and 1 columns; name entries that it has"),
     ("linearise", HELD | {"entries": {"A": [[1, 1]]}}, {"entries": {"A": [[0, 1]]}},
      "entries: A has 1 rows and 1 columns; name entries that it has"),
+    ("linearise", HELD | {"entries": {"A": [[1, 1]]}}, {"entries": {"A": [[1, 1], [1, 1]]}},
+     "entries: one of A is named twice; name each once"),
     ("linearise", HELD | {"entries": {"B": [[1, 1]]}}, {"entries": {"B": [[2, 1]]}},
      "entries: B has 1 rows and 1 columns; name entries that it has"),
     ("linearise", HELD | {"entries": {"B": [[1, 1]]}}, {"entries": {"B": [[1, 0]]}},

@@ -314,6 +314,8 @@ def test_a_grid_may_be_drawn_with_blanks_or_bars_between_its_cells(drawn: str) -
     "written",
     [
         "s\ta\ts'\tprob\tr\nA\tgo\tB\t50%\t1\nA\tgo\tend\t0,5\t-1\nB\tgo\tend\t1\t2\n",
+        "\n\ns\ta\ts'\tp\tr\nA\tgo\tB\t0,5\t1\nA\tgo\tend\t0,5\t-1\nB\tgo\tend\t1\t2\n",
+        "\nsep=;\ns;a;s';p;r\nA;go;B;0,5;1\nA;go;end;0,5;-1\nB;go;end;1;2\n",
         "\nstate,action,next,p,reward\nA,go,B,1/2,1\nA,go,end,1/2,-1\nB,go,end,1,2\n",
         "|s|a|s'|p|r|\n|--|--|--|--|--|\n|A|go|B|1/2|1|\n|A|go|end|1/2|-1|\n|B|go|end|1|2|",
         [
