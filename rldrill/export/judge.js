@@ -107,6 +107,9 @@ const Judge = (() => {
     exp: (x) => (isZero(x) ? whole(1) : finite(Math.exp(float(x)))),
     ln: (x) => finite(Math.log(float(x))),
     log: (x) => finite(Math.log(float(x))),
+    sin: (x) => finite(Math.sin(float(x))),
+    cos: (x) => finite(Math.cos(float(x))),
+    tan: (x) => finite(Math.tan(float(x))),
   };
 
   // One spelling
@@ -308,7 +311,6 @@ const Judge = (() => {
       }
       if (this.token.kind !== "(") refuse(`Put brackets behind ${name}.`);
       const inside = this.atom();
-      if (this.token.kind === "^" || this.token.kind === "raised") refuse("Put brackets around what is raised.");
       return (at) => {
         const value = inside(at);
         if (value instanceof Ratio) throw new NoRatio();
@@ -432,27 +434,38 @@ const Judge = (() => {
     some: "Not right at {}; the rest is right.", choose: "Choose an answer.", comma: false,
   };
 
+  // A listed wrong answer that has no value, or none here, is nobody's.
+  const isKnown = (fit) => {
+    try {
+      return fit();
+    } catch (error) {
+      if (!(error instanceof Unreadable)) throw error;
+      return false;
+    }
+  };
+
   // One part: what was typed for each of its cells, and what is known of it, in words that may be others than ours.
   function part(task, typed, others = {}) {
     const told = { ...TOLD, ...others };
-    const readings = [];
+    const readings = [], wrong = [];
+    const fits = (index, key) => (Array.isArray(key) ? key.includes(readings[index]) : right(readings[index], key, task.parameters));
     for (const [index, cell] of task.cells.entries()) {
       if (cell.words) {
         if (!typed[index]) return { outcome: "unreadable", says: told.choose, cell: index };
         readings.push(typed[index]);
+        if (!fits(index, cell.words)) wrong.push(index);
         continue;
       }
       try {
         readings.push(read(typed[index] ?? "", task.parameters, told.comma));
+        if (!fits(index, cell.key)) wrong.push(index);
       } catch (error) {
         if (!(error instanceof Unreadable)) throw error;
         return { outcome: "unreadable", says: (cell.name ? `${cell.name}: ` : "") + error.message, cell: index };
       }
     }
-    const fits = (index, key) => (Array.isArray(key) ? key.includes(readings[index]) : right(readings[index], key, task.parameters));
-    const wrong = task.cells.map((_, index) => index).filter((index) => !fits(index, task.cells[index].words ?? task.cells[index].key));
     if (!wrong.length) return { outcome: "right", says: told.right };
-    const made = task.mistakes.find((mistake) => mistake.cells.every((key, index) => fits(index, key)));
+    const made = task.mistakes.find((mistake) => isKnown(() => mistake.cells.every((key, index) => fits(index, key))));
     if (made) return { outcome: "misconception", says: made.says, read: made.read, wrong };
     if (wrong.every((index) => !task.cells[index].words && closeTo(readings[index], task.cells[index].key, task.parameters))) {
       return { outcome: "close", says: told.close, wrong };

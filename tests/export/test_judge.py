@@ -14,6 +14,7 @@ import rldrill
 from number_spellings import spellings
 from rldrill.export.html import task
 from rldrill.export.page import beside
+from rldrill.problems.catalogue import family
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import is_right
@@ -23,6 +24,10 @@ READ = """
 var said = (text) => {
   try { const value = Judge.read(text).value(0.5); return Array.isArray(value) ? value.join("/") : String(value); }
   catch (error) { if (!(error instanceof Judge.Unreadable)) throw error; return "unreadable"; }
+};
+var unread = (key, letters) => {
+  try { Judge.right(Judge.read("1.5"), key, letters); return ""; }
+  catch (error) { if (!(error instanceof Judge.Unreadable)) throw error; return error.message; }
 };
 """
 #: One problem for every form of answer: whole numbers, e, roots, logarithms, open parameters, words.
@@ -105,6 +110,43 @@ def test_the_page_judges_as_the_library_does(identity: str) -> None:
         for text in (*samples.right[:1], *samples.wrong):
             verdict = judged(asked, typed_cells(exercise, part.label, text))
             assert (verdict["outcome"] == "right") == exercise.check(text, part.label).accepted, (identity, text)
+
+
+@pytest.mark.parametrize("name", rldrill.families())
+def test_the_page_reads_every_answer_that_it_holds(name: str) -> None:
+    """Right and wrong ones: a key that it cannot read is a part that nothing is said of, whatever is typed."""
+    for level in family(name).levels:
+        exercise = rldrill.draw(name, level, 11)
+        for part in exercise.parts:
+            asked = task(exercise, part)
+            known = [
+                [cell["key"] for cell in asked["cells"] if "key" in cell],
+                *(m["cells"] for m in asked["mistakes"]),
+            ]
+            for key in {key for keys in known for key in keys if isinstance(key, str)}:
+                given = ", ".join(map(json.dumps, (key, asked["parameters"])))
+                assert engine()(f"unread({given})") == "", (exercise.id, part.label, key)
+
+
+@pytest.mark.parametrize(
+    ("typed", "outcome", "says"),
+    [("-5*cos(1)", "right", "Right."), ("-2.70", "right", "Right."), ("-2.69", "close", "Right idea"),
+     ("5cos(1)", "misconception", "The sign."), ("sin(1)^2", "misconception", "A sine."), ("7", "wrong", "Not right.")],
+)  # fmt: skip
+def test_a_wrong_answer_that_has_no_value_keeps_no_other_from_being_told(typed: str, outcome: str, says: str) -> None:
+    """−5·cos 1 = −2.7015…"""
+    known = {"1/0": "None.", "whatever(2)": "None.", "5*cos(1)": "The sign.", "sin(1)^2": "A sine."}
+    mistakes = [{"cells": [cell], "says": said} for cell, said in known.items()]
+    one = {"parameters": [], "cells": [{"name": "", "key": "-5*cos(1)"}], "mistakes": mistakes}
+    verdict = judged(one, [typed])
+    assert (verdict["outcome"], verdict["says"][: len(says)]) == (outcome, says)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("log(2)^2", 0.480453), ("ln(2)²", 0.480453), ("sin(1)", 0.841471), ("tan(4)", 1.157821)]
+)
+def test_the_page_reads_functions_as_rldrill_writes_them(text: str, value: float) -> None:
+    assert float(engine()(f"said({json.dumps(text)})")) == pytest.approx(value, abs=1e-6)
 
 
 @pytest.mark.parametrize(
