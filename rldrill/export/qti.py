@@ -106,9 +106,12 @@ def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercis
         _Asked(part, cells(exercise, part, head.language), tuple(wrong_answers(exercise, part)))
         for part in exercise.parts
     ]
-    told = note(head, [cell for each in asked for cell in each.cells], reads="point")
-    body = "".join(each.body(writer, label(exercise, each.part)) for each in asked)
-    question = writer.blocks(exercise.question()) + (f"<p><em>{told}</em></p>" if told else "")
+    told = note(head, [cell for each in asked if not each.by_hand for cell in each.cells], reads="point")
+    body = "".join(
+        each.body(writer, label(exercise, each.part), note(head, each.cells, reads="point") if each.by_hand else "")
+        for each in asked
+    )
+    question = writer.blocks(exercise.question()) + _noted(told)
     conditions, feedback = [], []
     for each in asked:
         for condition, says in each.judged():
@@ -134,24 +137,40 @@ def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercis
     )
 
 
+def _noted(told: str) -> str:
+    return f"<p><em>{told}</em></p>" if told else ""
+
+
 class _Asked:
-    """A part, and its cells as responses."""
+    """A part, and its cells as responses; ``by_hand`` says whether it is marked by a person, and then as a whole."""
 
     def __init__(self, part: Part, asked: Sequence[Cell], wrong: Sequence[Wrong]) -> None:
         self.part, self.cells, self.wrong = part, asked, wrong
+        self.by_hand = any(map(is_open, asked))
         self._worth = f"{Decimal(part.points) / len(asked):.6g}"
 
     def declared(self) -> str:
         """The responses with what is right in them."""
         return "".join(
-            f'<responseDeclaration identifier="{self._name(index)}" cardinality="single" baseType="{_type(cell)}"'
-            f"{_right(cell)}\n"
+            f'<responseDeclaration identifier="{self._name(index)}" cardinality="single" baseType="{self._type(cell)}"'
+            f"><correctResponse><value>{escape(self._right(cell))}</value></correctResponse></responseDeclaration>\n"
             for index, cell in enumerate(self.cells)
         )
 
-    def body(self, writer: _Writer, letter: str) -> str:
-        """What is asked, and where it is answered."""
-        ask = f"<p>{letter}{writer.text(self.part.ask)}</p>\n"
+    def _type(self, cell: Cell) -> str:
+        if isinstance(cell, Word):
+            return "identifier"
+        return "string" if self.by_hand else "float"
+
+    def _right(self, cell: Cell) -> str:
+        """The right answer, or one of them."""
+        if isinstance(cell, Word):
+            return _key(cell, cell.right[0])
+        return cell.exact if self.by_hand or cell.decimal is None else cell.decimal
+
+    def body(self, writer: _Writer, letter: str, told: str) -> str:
+        """What is asked with what is told of it, and where it is answered."""
+        ask = f"<p>{letter}{writer.text(self.part.ask)}</p>\n{_noted(told)}"
         if isinstance(self.part.kind, Choice | YesNo):
             (only,) = self.cells
             assert isinstance(only, Word)
@@ -161,7 +180,7 @@ class _Asked:
             )
             return f'{ask}<choiceInteraction responseIdentifier="{self._name(0)}" shuffle="false" maxChoices="1">' \
                    f"{options}</choiceInteraction>\n"  # fmt: skip
-        if any(map(is_open, self.cells)):
+        if self.by_hand:
             places = (
                 f'<div>{_left(writer, cell)}<extendedTextInteraction responseIdentifier="{self._name(index)}"/></div>'
                 for index, cell in enumerate(self.cells)
@@ -175,9 +194,7 @@ class _Asked:
 
     def judged(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
         """For every cell how it is judged, and what is told of its wrong answers."""
-        for index, cell in enumerate(self.cells):
-            if is_open(cell):
-                continue
+        for index, cell in enumerate(() if self.by_hand else self.cells):
             name = self._name(index)
             right = _is_right(name, cell)
             worth = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{self._worth}</baseValue></sum>'
@@ -229,18 +246,6 @@ def _left(writer: _Writer, cell: Cell) -> str:
 def _key(cell: Word, option: str) -> str:
     """An option's name: what it says may be any text."""
     return f"o{[*cell.options].index(option) + 1}"
-
-
-def _type(cell: Cell) -> str:
-    if isinstance(cell, Word):
-        return "identifier"
-    return "string" if is_open(cell) else "float"
-
-
-def _right(cell: Cell) -> str:
-    """The end of a declaration: the right answer, or one of them."""
-    right = _key(cell, cell.right[0]) if isinstance(cell, Word) else cell.decimal or cell.exact
-    return f"><correctResponse><value>{escape(right)}</value></correctResponse></responseDeclaration>"
 
 
 def _is_right(name: str, cell: Cell) -> str:
