@@ -196,11 +196,13 @@ def _layout(exam: "Exam", changes: dict[str, Any]) -> "Layout":
 
 def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool = False, force: bool) -> list[str]:
     """Write an exam in another format; with the solutions inline it is for practice, whatever it comes from."""
-    from rldrill.export.formats import check, export, named
+    from rldrill.export.formats import check, export, named, says_what_is_lost
 
     target = named(output, format_)
     check(exam, target, format_, force=force)
     practice = practice or exam.layout.solutions == "inline"
+    if not practice and (lost := says_what_is_lost(exam, format_)):
+        typer.echo(f"rldrill: {lost}", err=True)
     with _progress("Writing", len(exam.versions)) as advance:
         return list(map(str, export(exam, target, format_, practice=practice, advance=advance)))
 

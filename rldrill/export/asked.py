@@ -10,6 +10,7 @@ from msgspec import Struct
 
 from rldrill.entries import by_name
 from rldrill.exam.choices import Language
+from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.print.possible import is_possible
 from rldrill.print.words import Words, words
@@ -77,6 +78,14 @@ def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Ce
     return tuple(
         _cell(part, name, None if left is None else next(written), each, words(language))
         for (name, each), left in zip(content.items(), lefts, strict=True)
+    )
+
+
+def all_or_nothing(exam: Exam, version: Version, index: int) -> frozenset[str]:
+    """The labels of the parts that earn nothing for a wrong entry, of a problem by its place in the version, from 0."""
+    rules = version.partial[index] if version.partial else {}
+    return frozenset(
+        part.label for part in version.exercises[index].parts if rules.get(part.label, exam.partial) == "all"
     )
 
 

@@ -3,13 +3,24 @@
 https://www.imsglobal.org/question/qtiv2p1/imsqti_infov2p1.html
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from decimal import Decimal
 from html import escape
 
 from rldrill.exam.exam import Exam, Head, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, label, told_apart, wrong_answers
+from rldrill.export.asked import (
+    Cell,
+    Quantity,
+    Word,
+    Wrong,
+    all_or_nothing,
+    cells,
+    is_open,
+    label,
+    told_apart,
+    wrong_answers,
+)
 from rldrill.export.packed import packed
 from rldrill.export.with_files import WithFiles, matrix_rows
 from rldrill.export.words import note
@@ -67,7 +78,8 @@ def qti_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda
         names = []
         for number, exercise in enumerate(version.exercises, 1):
             writer = _Writer(name := f"item-{version.code}-{number}", end="/>")
-            files[f"{name}.xml"] = _item(exam.head, writer, name, number, exercise, practice=practice)
+            whole = all_or_nothing(exam, version, number - 1)
+            files[f"{name}.xml"] = _item(exam.head, writer, name, number, exercise, whole, practice=practice)
             files |= writer.files
             resources.append(_resource(name, "item", [*writer.files]))
             names.append(name)
@@ -101,9 +113,16 @@ def _test(exam: Exam, version: Version, names: Sequence[str]) -> str:
     )
 
 
-def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercise, *, practice: bool) -> str:
+def _item(
+    head: Head, writer: _Writer, name: str, number: int, exercise: Exercise, whole: Collection[str], *, practice: bool
+) -> str:
     asked = [
-        _Asked(part, cells(exercise, part, head.language), tuple(wrong_answers(exercise, part)))
+        _Asked(
+            part,
+            cells(exercise, part, head.language),
+            tuple(wrong_answers(exercise, part)),
+            whole=part.label in whole,
+        )
         for part in exercise.parts
     ]
     told = note(head, [cell for each in asked if not each.by_hand for cell in each.cells], reads="point")
@@ -142,12 +161,14 @@ def _noted(told: str) -> str:
 
 
 class _Asked:
-    """A part, and its cells as responses; ``by_hand`` says whether it is marked by a person, and then as a whole."""
+    """A part, and its cells as responses.
 
-    def __init__(self, part: Part, asked: Sequence[Cell], wrong: Sequence[Wrong]) -> None:
+    ``by_hand`` says whether it is marked by a person, and then as a whole; ``whole`` whether a wrong cell costs all.
+    """
+
+    def __init__(self, part: Part, asked: Sequence[Cell], wrong: Sequence[Wrong], *, whole: bool) -> None:
         self.part, self.cells, self.wrong = part, asked, wrong
-        self.by_hand = any(map(is_open, asked))
-        self._worth = f"{Decimal(part.points) / len(asked):.6g}"
+        self.by_hand, self._whole = any(map(is_open, asked)), whole
 
     def declared(self) -> str:
         """The responses with what is right in them."""
@@ -193,21 +214,22 @@ class _Asked:
         return f"{ask}{''.join(lines)}\n"
 
     def judged(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-        """For every cell how it is judged, and what is told of its wrong answers."""
-        for index, cell in enumerate(() if self.by_hand else self.cells):
-            name = self._name(index)
-            right = _is_right(name, cell)
-            worth = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{self._worth}</baseValue></sum>'
-            tests, told = [], []
-            for number, (test, says) in enumerate(self._mistakes(index, cell), 1):
-                key = f"F_{name}_{number}"
-                tests.append(f"<responseElseIf>{test}{_tell(key)}</responseElseIf>")
-                told.append((key, f"<p>{escape(inline(says))}</p>"))
-            yield (
-                f'<responseCondition><responseIf>{right}<setOutcomeValue identifier="SCORE">{worth}</setOutcomeValue>'
-                f"</responseIf>{''.join(tests)}</responseCondition>\n",
-                told,
-            )
+        """What earns points, and of every cell what is told of its wrong answers."""
+        if self.by_hand:
+            return
+        rights = [_is_right(self._name(index), cell) for index, cell in enumerate(self.cells)]
+        earning = [_all(rights)] if self._whole else rights
+        worth = f"{Decimal(self.part.points) / len(earning):.6g}"
+        score = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{worth}</baseValue></sum>'
+        for right in earning:
+            yield _first([(right, f'<setOutcomeValue identifier="SCORE">{score}</setOutcomeValue>')]), []
+        for index, cell in enumerate(self.cells):
+            known = [(f"F_{self._name(index)}_{n}", *each) for n, each in enumerate(self._mistakes(index, cell), 1)]
+            if known:
+                yield (
+                    _first([(test, _tell(key)) for key, test, _ in known]),
+                    [(key, f"<p>{escape(inline(says))}</p>") for key, _, says in known],
+                )
 
     def _mistakes(self, index: int, cell: Cell) -> Iterator[tuple[str, str]]:
         name = self._name(index)
@@ -253,6 +275,17 @@ def _is_right(name: str, cell: Cell) -> str:
         return _equal(name, cell)
     tests = [_is(name, _key(cell, option)) for option in cell.right]
     return tests[0] if len(tests) == 1 else f"<or>{''.join(tests)}</or>"
+
+
+def _all(tests: Sequence[str]) -> str:
+    return tests[0] if len(tests) == 1 else f"<and>{''.join(tests)}</and>"
+
+
+def _first(rules: Sequence[tuple[str, str]]) -> str:
+    """What is done where the first of these tests holds that does."""
+    tags = ["responseIf", *["responseElseIf"] * (len(rules) - 1)]
+    branches = "".join(f"<{tag}>{test}{does}</{tag}>" for tag, (test, does) in zip(tags, rules, strict=True))
+    return f"<responseCondition>{branches}</responseCondition>\n"
 
 
 def _is(name: str, key: str) -> str:

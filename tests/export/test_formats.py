@@ -24,7 +24,7 @@ from rldrill.exam.exam import Exam, Head, Version
 from rldrill.exam.planning import version_code
 from rldrill.exam.roster import Person
 from rldrill.export.asked import Wrong, answer, cells, typeset
-from rldrill.export.formats import FORMATS, check, export, format_of, named, version_path
+from rldrill.export.formats import FORMATS, check, export, format_of, named, says_what_is_lost, version_path
 from rldrill.export.words import note
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.errors import UsageError
@@ -429,6 +429,20 @@ def test_what_is_there_is_replaced_only_by_force(tmp_path: Path) -> None:
         check(exam, path, FORMATS["latex"], force=False)
     check(exam, path, FORMATS["latex"], force=True)
     check(exam, tmp_path / "none" / "x.tex", FORMATS["latex"], force=True)  # the folder is made
+
+
+def test_it_is_said_where_a_program_gives_points_that_the_exam_does_not() -> None:
+    """Problems have tables and vectors; of single numbers nothing is lost."""
+    entries = replace(exam(), partial="entries")
+    (version,) = entries.versions
+    numbers = replace(exam(), versions=(Version("A", (rldrill.load("optimal-value/3/5"),), (0,)),))
+    ruled = replace(entries, versions=(replace(version, partial=({"a": "all"}, *[{}] * 4)),))
+    for name, program in (("moodle", "Moodle"), ("canvas", "Canvas")):
+        lost = f'{program} marks box by box: parts with partial = "all" earn a share there for what is right in them'
+        assert says_what_is_lost(exam(), FORMATS[name]) == says_what_is_lost(ruled, FORMATS[name]) == lost
+        assert says_what_is_lost(entries, FORMATS[name]) == ""
+        assert says_what_is_lost(numbers, FORMATS[name]) == ""
+    assert says_what_is_lost(exam(), FORMATS["qti"]) == ""
 
 
 def test_what_is_only_chosen_is_told_nothing_of_decimals() -> None:
