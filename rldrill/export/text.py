@@ -66,9 +66,10 @@ def _part(exercise: Exercise, part: Part, answers: Sequence[str], written: Write
 
 
 def json_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> str:
-    """All versions as JSON; for practice with answers, steps and wrong answers."""
+    """All versions as JSON; for practice with answers, steps and wrong answers, and what a problem file holds."""
     versions = []
-    hidden = set() if practice or exam.layout.ids else {"id"}  # an ID is its key
+    # A diagram's givens name what it shows, and rldrill solves any problem of which it has the givens, or the ID.
+    hidden = () if practice else ("given",) if exam.layout.ids else ("given", "id")
     for version in exam.versions:
         told = (
             exercise.data(answers=practice, mistakes=_MISTAKES if practice else 0) for exercise in version.exercises

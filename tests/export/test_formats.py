@@ -248,6 +248,16 @@ def test_an_exam_with_decimal_commas_has_them_wherever_people_read(name: str, tm
         assert "13.8629436112" in text
 
 
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_an_exam_as_json_does_not_name_the_diagrams_that_are_to_be_named(tmp_path: Path, level: int) -> None:
+    asked = rldrill.draw("backup-diagram-name", level, 1)
+    one = Exam(Head(), 1, (Version("A", (asked,), (0,)),))
+    (path,) = export(one, tmp_path / "exam.json", FORMATS["json"], practice=False)
+    (problem,) = json.loads(path.read_text("utf-8"))["versions"][0]["problems"]
+    assert set(problem) == {"format", "family", "level", "question", "parts"}
+    assert all(set(part) == {"part", "ask", "kind", "points", "options"} for part in problem["parts"])
+
+
 def test_numbers_of_json_keep_their_points(tmp_path: Path) -> None:
     (path,) = export(german(), tmp_path / "exam.json", FORMATS["json"], practice=True)
     decimals = json.loads(path.read_text("utf-8"))["versions"][0]["problems"][0]["parts"][0]["answer"]["decimal"]
