@@ -22,7 +22,9 @@ from rldrill import draw, load, read
 from rldrill.commands import worksheet as worksheet_command
 from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.exam import Exam, Head, Layout, Version
+from rldrill.exam.manifest import manifest, written
 from rldrill.exam.planning import plan
+from rldrill.print import fonts
 from rldrill.print.exam_page import setup
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
@@ -418,6 +420,25 @@ def refused(*arguments: str | Path) -> str:
 
 def bytes_in(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.glob("*.pdf")}
+
+
+def test_a_name_in_a_problem_is_printed_with_fonts_that_have_it_or_refused_before_anything_is_written(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    text = (Path(__file__).parents[1] / "examples" / "racing-car.toml").read_text("utf-8")
+    (problem := tmp_path / "cn.toml").write_text(text.replace('"cool"', '"冷"'), "utf-8")
+    assert not needs_system_fonts(Head(), (), text)
+    (saved := tmp_path / "cn.json").write_bytes(
+        written(manifest(plan(Blueprint(problems=(Entry(file=str(problem)),), seed=1))))
+    )
+    # A computer that has no fonts of its own
+    monkeypatch.setattr(fonts, "pdf", lambda source, **how: pdf(source, **how | {"system_fonts": False}))
+    fonts._needs_system_fonts.cache_clear()
+    for arguments in ([problem, "-o", tmp_path / "new.pdf"], ["--from", saved, "-o", tmp_path / "again.pdf"]):
+        assert "No font on this computer has '冷', which the title, another text of the exam" in refused(*arguments)
+    assert not list(tmp_path.glob("*.pdf"))
+    assert not (tmp_path / "new.json").exists()
+    fonts._needs_system_fonts.cache_clear()
 
 
 def test_the_command_prints_the_files_and_echoes_the_seed(tmp_path: Path) -> None:

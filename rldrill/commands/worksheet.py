@@ -276,8 +276,7 @@ def _printed(
     people = () if roster is None else read_roster(roster)
     number = len(people) or blueprint.versions
     secret = _secret(secret_file)
-    if needs_system_fonts(blueprint.head, people):
-        typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)
+    needs_system_fonts(blueprint.head, people)  # what no font has is refused before any work is done
     fresh = blueprint.seed is None
     seed = fresh_seed() if blueprint.seed is None else blueprint.seed
     typer.echo(f"seed {seed}", err=True)
@@ -288,6 +287,8 @@ def _printed(
         exam = drawn(blueprint.but(seed=seed), typst_version(), roster=people, secret=secret, advance=advance)
     _tell(number, exam.fairness, blueprint.minutes)
     data = exam.manifest
+    if needs_system_fonts(blueprint.head, people, data.decode()):
+        typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)
     if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
         make_room(earlier(files), force=force)
     return _counted(files, number, lambda advance: write(files, data, advance))
