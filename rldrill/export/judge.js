@@ -322,24 +322,44 @@ const Judge = (() => {
   // A number, perhaps in several forms, with a name before it: V(s) = 1/4 = 0.25
   function read(typed, parameters = [], comma = false) {
     if (typed.length > 400) refuse("It is too long.");
-    let text = spelled(typed).replace(/^[≈~]\s*/u, "");
+    const text = spelled(typed).replace(/^[≈~]\s*/u, "").replace(/≈\s*([-+]?[0-9]+)$/u, "≈ $1.");
     if (!text) refuse("Nothing was typed.");
-    let forms = text.split(/[=≈:]/u).map((form) => form.trim());
-    if (forms.length > 1 && (!forms[0] || /^[^\W\d]|^[α-ωΑ-Ω∂]/u.test(forms[0]))) forms = forms.slice(1);
-    const readings = forms.map((form) => {
-      const parser = new Parser(comma ? pointed(form) : form, parameters);
+    const forms = text.split(/[=≈:]/u).map((form) => form.trim());
+    const one = (form) => {
+      const said = comma ? pointed(form) : form;
+      const parser = new Parser(said, parameters);
       const value = parser.all();
       POINTS.slice(0, parameters.length ? 2 : 1).forEach((_, number) => float(value(pointOf(number))));
-      return { value, decimal: parser.decimal };
-    });
-    const [first, ...others] = readings;
-    for (const other of others) {
-      const same = parameters.length ? equivalent(first.value, other.value)
-        : Math.abs(float(first.value()) - float(other.value())) <= (other.decimal ? 5e-3 * Math.abs(float(first.value())) : 1e-9);
-      if (!same) refuse("It says two numbers which differ; write one.");
+      return { value, decimal: parser.decimal, said };
+    };
+    if (forms.length > 1 && (!forms[0] || (isWord(forms[0]) && !ifRead(() => one(forms[0]))))) forms.shift();
+    const readings = forms.map(one);
+    if (forms.length > 1 && NAME.test(forms[0]) && !agree(readings)) readings.shift(); // e = 2 may name the trace
+    return agree(readings) ? readings[0] : refuse("It says two numbers which differ; write one.");
+
+    function agree([first, ...others]) {
+      return others.every((other) => (parameters.length ? equivalent(first.value, other.value)
+        : Math.abs(float(first.value()) - float(other.value())) <= (other.decimal ? lastDigit(other.said) / 2 : 0) + 1e-9));
     }
-    return first;
   }
+  const isWord = (form) => /^[^\W\d]|^[α-ωΑ-Ω∂]/u.test(form) && !Object.hasOwn(FUNCTIONS, /^[a-z]*/iu.exec(form)[0].toLowerCase());
+  const NAME = /^\p{L}[\p{L}\p{N}_' ]*(?:\([^()]*\)|\[[^[\]]*\])?$/u;
+  // The unit of the last digit of a decimal, to which another form of it may be rounded; 0 where there is more than that
+  const lastDigit = (said) => {
+    const found = /^[-+]?\s*(?:[0-9]+(?:\.([0-9]*))?|\.([0-9]+))(?:e([-+]?[0-9]+))?\s*(%)?$/iu.exec(said);
+    if (!found) return 0;
+    const [, behind, alone, exponent, percent] = found;
+    return 10 ** (Number(exponent ?? 0) - (behind ?? alone ?? "").length - (percent ? 2 : 0));
+  };
+  // What a work gives; nothing where something in it cannot be read or has no value
+  const ifRead = (work) => {
+    try {
+      return work();
+    } catch (error) {
+      if (!(error instanceof Unreadable)) throw error;
+      return null;
+    }
+  };
 
   // The rule
   const POINTS = [0.3819660113, 0.1415926536, 0.7182818285, 0.5772156649, 0.9159655942, 0.2502907875, 0.6434105463, 0.8346268417];
@@ -434,16 +454,6 @@ const Judge = (() => {
     some: "Not right at {}; the rest is right.", choose: "Choose an answer.", comma: false,
   };
 
-  // A listed wrong answer that has no value, or none here, is nobody's.
-  const isKnown = (fit) => {
-    try {
-      return fit();
-    } catch (error) {
-      if (!(error instanceof Unreadable)) throw error;
-      return false;
-    }
-  };
-
   // One part: what was typed for each of its cells, and what is known of it, in words that may be others than ours.
   function part(task, typed, others = {}) {
     const told = { ...TOLD, ...others };
@@ -465,7 +475,7 @@ const Judge = (() => {
       }
     }
     if (!wrong.length) return { outcome: "right", says: told.right };
-    const made = task.mistakes.find((mistake) => isKnown(() => mistake.cells.every((key, index) => fits(index, key))));
+    const made = task.mistakes.find((mistake) => ifRead(() => mistake.cells.every((key, index) => fits(index, key))));
     if (made) return { outcome: "misconception", says: made.says, read: made.read, wrong };
     if (wrong.every((index) => !task.cells[index].words && closeTo(readings[index], task.cells[index].key, task.parameters))) {
       return { outcome: "close", says: told.close, wrong };

@@ -206,6 +206,29 @@ def test_of_an_expression_each_number_is_right_to_three_digits(
     assert is_right(reading.value, read_number(key, letters).value, rounded=reading.decimal) == (outcome == "right")
 
 
+@pytest.mark.parametrize(
+    ("key", "letters", "typed", "outcome"),
+    [
+        # √3/2 = 0.8660…, e^(−1/8) = 0.8824…, ln 2 + 3/4 = 1.4431…: the first is the answer, the other it rounded
+        ("sqrt(3)/2", [], "sqrt(3)/2 ≈ 0.87", "right"), ("sqrt(3)/2", [], "√3/2 = 0.866", "right"),
+        ("exp(-1/8)", [], "e^(-1/8) = 0.88", "right"), ("log(2) + 3/4", [], "log(2) + 3/4 ≈ 1.4", "right"),
+        ("1/3", [], "1/3 ≈ 0.33", "right"), ("1/4", [], "1/4 = 25 %", "right"), ("1/200", [], "1/200 = 5e-3", "right"),
+        ("pi", [], "π ≈ 3", "right"), ("2*gamma + 3", ["gamma"], "γ+1 = 2γ+3", "unreadable"),
+        ("2/3", [], "2/3 = 0.66", "unreadable"), ("sqrt(3)/2", [], "0.87 = sqrt(3)/2", "unreadable"),
+        ("log(2)", [], "ln 2 ≈ 0.69", "unreadable"),  # brackets are asked for
+        # A name, also where it could be a number
+        ("3", [], "V(s) = 3", "right"), ("3", [], "e = 3", "right"), ("3", ["p"], "p = 3", "right"),
+        ("3", ["p", "x"], "P(x) = 3", "right"), ("E", [], "e = 2.718", "right"),
+        ("exp(2)", [], "x = exp(2) = 7.389", "right"),
+    ],
+)  # fmt: skip
+def test_a_number_may_stand_in_several_forms_and_a_name_before_it(
+    key: str, letters: list[str], typed: str, outcome: str
+) -> None:
+    one = {"parameters": letters, "cells": [{"name": "", "key": key}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+
+
 @pytest.mark.parametrize("typed", ["10^400", "-10^350", "γ*10^320"])
 def test_what_is_too_large_is_not_right(typed: str) -> None:
     one = {"parameters": ["gamma"], "cells": [{"name": "", "key": "(2 - 4*gamma)/(1 - gamma^2)"}], "mistakes": []}
