@@ -444,9 +444,11 @@ const Judge = (() => {
   const closeTo = (reading, keyText, parameters) => {
     const key = new Parser(keyText, parameters).all();
     if (parameters.length && (varies(reading.value) || varies(key))) return false;
-    const [a, b] = [float(reading.value(pointOf(0))), float(key(pointOf(0)))];
-    if (!reading.decimal && !Number.isInteger(a)) return false; // who writes 5/16 or 2√3 means just that
-    return b !== 0 && Math.abs(a - b) <= Math.abs(b) / 50;
+    const [a, b] = [reading.value(pointOf(0)), key(pointOf(0))];
+    if (!reading.decimal && !Number.isInteger(float(a))) return false; // who writes 5/16 or 2√3 means just that
+    if (isZero(b)) return false;
+    const off = subtract(divide(a, b), whole(1)); // exactly, where both are: 0.17 is 2 % off 1/6
+    return isExact(off) ? abs(off[0]) * 50n <= off[1] : Math.abs(off) <= 1 / 50;
   };
 
   const TOLD = {

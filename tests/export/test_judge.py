@@ -17,7 +17,7 @@ from rldrill.export.page import beside
 from rldrill.problems.catalogue import family
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.answers.rule import is_right
+from rldrill.solutions.answers.rule import is_close, is_right
 from rldrill.solutions.answers.text import Unreadable, read_number
 
 READ = """
@@ -227,6 +227,20 @@ def test_a_number_may_stand_in_several_forms_and_a_name_before_it(
 ) -> None:
     one = {"parameters": letters, "cells": [{"name": "", "key": key}], "mistakes": []}
     assert judged(one, [typed])["outcome"] == outcome
+
+
+@pytest.mark.parametrize(
+    ("key", "typed", "outcome"),
+    [("1/6", "0.17", "close"), ("1/6", "0.171", "wrong"), ("5/7", "0.7", "close"), ("10/7", "1.4", "close"),
+     ("-1/2", "-0.51", "close"), ("-1/2", "-0.511", "wrong"), ("-1/2", "0.51", "wrong"), ("0", "0.001", "wrong"),
+     ("50", "49", "close"), ("50", "48", "wrong"), ("50", "2401/49", "close"), ("pi", "3.08", "close"),
+     ("pi", "3.07", "wrong")],
+)  # fmt: skip
+def test_what_lies_two_percent_off_is_close_the_bound_included(key: str, typed: str, outcome: str) -> None:
+    """Of 1/6, 2 % are 1/300, and 0.17 − 1/6 is just that; 2 % off π is 3.0788."""
+    one = {"parameters": [], "cells": [{"name": "", "key": key}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+    assert is_close(read_number(typed).value, read_number(key).value) == (outcome == "close")
 
 
 @pytest.mark.parametrize("typed", ["10^400", "-10^350", "γ*10^320"])
