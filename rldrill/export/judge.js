@@ -333,10 +333,19 @@ const Judge = (() => {
       return { value, decimal: parser.decimal, said };
     };
     if (forms.length > 1 && (!forms[0] || (isWord(forms[0]) && !ifRead(() => one(forms[0]))))) forms.shift();
+    forms.forEach(refuseTwice);
     const readings = forms.map(one);
     if (forms.length > 1 && NAME.test(forms[0]) && !agree(readings)) readings.shift(); // e = 2 may name the trace
     return agree(readings) ? readings[0] : refuse("It says two numbers which differ; write one.");
 
+    // Behind a space, in brackets: a factor, or the same again?
+    function refuseTwice(form) {
+      const [, before, inside] = /^(.*\S)\s+\((.*)\)$/su.exec(form) ?? [];
+      const both = before && ifRead(() => [before, inside].map(one));
+      if (both && (/^[-+0-9.,/%\s]+$/u.test(inside) || agree(both) || agree([...both].reverse()))) {
+        refuse("What stands in brackets may be a factor, or the same number again; write one number.");
+      }
+    }
     function agree([first, ...others]) {
       return others.every((other) => (parameters.length ? equivalent(first.value, other.value)
         : Math.abs(float(first.value()) - float(other.value())) <= (other.decimal ? lastDigit(other.said) / 2 : 0) + 1e-9));

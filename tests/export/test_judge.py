@@ -230,6 +230,22 @@ def test_a_number_may_stand_in_several_forms_and_a_name_before_it(
 
 
 @pytest.mark.parametrize(
+    ("letters", "typed", "outcome"),
+    [
+        ([], "-pi (-3.14)", "unreadable"), ([], "log(2) + 2 (2.69)", "unreadable"), ([], "ln(6) (1.79)", "unreadable"),
+        ([], "8 (8)", "unreadable"), ([], "29/4 (7.25)", "unreadable"), ([], "x = 8 (8.0)", "unreadable"),
+        ([], "0.707 (√2/2)", "unreadable"), ([], "√2/2 (sqrt(2)/2)", "unreadable"),
+        # A factor for sure
+        ([], "2(4)", "right"), ([], "(4) * (2)", "right"), ([], "2 (sqrt(9) + 1)", "right"), ([], "9 - (1)", "right"),
+        (["gamma"], "8 (γ + 1)/(1 + γ)", "right"), (["gamma"], "8(γ + 1) (1/(1 + γ))", "right"),
+    ],
+)  # fmt: skip
+def test_a_number_in_brackets_behind_a_number_is_asked_back(letters: list[str], typed: str, outcome: str) -> None:
+    one = {"parameters": letters, "cells": [{"name": "", "key": "8"}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+
+
+@pytest.mark.parametrize(
     ("key", "typed", "outcome"),
     [("1/6", "0.17", "close"), ("1/6", "0.171", "wrong"), ("5/7", "0.7", "close"), ("10/7", "1.4", "close"),
      ("-1/2", "-0.51", "close"), ("-1/2", "-0.511", "wrong"), ("-1/2", "0.51", "wrong"), ("0", "0.001", "wrong"),
