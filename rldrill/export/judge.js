@@ -282,7 +282,9 @@ const Judge = (() => {
           const before = this.tokens[this.next - 2]?.kind;
           if (!["+", "-", "(", undefined].includes(before)) refuse("Put brackets around the mixed number.");
           const [, digits, rest] = /^([0-9]+)\s*(.*)$/u.exec(token.value);
-          const value = add(whole(digits), fraction(VULGAR[rest] ?? rest));
+          const below = fraction(VULGAR[rest] ?? rest);
+          if (below[0] >= below[1]) refuse("After a whole number the fraction must be below one, as in 1 3/4; write a sign between.");
+          const value = add(whole(digits), below);
           return () => value;
         }
         case "(": {
@@ -303,6 +305,7 @@ const Judge = (() => {
     named(typed) {
       const name = this.parameters.includes(typed) ? typed : GREEK[typed] ?? typed.toLowerCase();
       if (this.parameters.includes(name)) return (at) => at(name);
+      if (name === "e" && this.parameters.includes("epsilon")) refuse("“e” may be ε or the number e; write epsilon, or exp(1).");
       if (name === "e") return () => Math.E;
       if (name === "pi") return () => Math.PI;
       if (!(name in FUNCTIONS)) {
@@ -324,6 +327,7 @@ const Judge = (() => {
     if (typed.length > 400) refuse("It is too long.");
     const text = spelled(typed).replace(/^[≈~]\s*/u, "").replace(/≈\s*([-+]?[0-9]+)$/u, "≈ $1.");
     if (!text) refuse("Nothing was typed.");
+    if (/(?<![0-9.,])0[·⋅∙][0-9]/u.test(typed)) refuse("A raised point may be a decimal point, or a sign for times; write another one.");
     const forms = text.split(/[=≈:]/u).map((form) => form.trim());
     const one = (form) => {
       const said = comma ? pointed(form) : form;

@@ -77,15 +77,16 @@ def test_the_page_reads_no_number_as_another_one() -> None:
 @pytest.mark.parametrize(
     ("text", "value"), [("3/4", "3/4"), ("−0.75", "-3/4"), ("1 1/2", "3/2"), ("2½", "5/2"), ("75 %", "3/4"),
                         ("V(s) = 1/4 = 0.25", "1/4"), ("2·3 + 1", "7"), (r"\frac{3}{4}", "3/4"), ("1e-2", "1/100"),
-                        ("2³", "8"), ("√9", "3"), ("-2^2", "-4"), ("(1+2)(3)", "9"), ("6/2*3", "9")],
+                        ("2³", "8"), ("10·5", "50"), ("√9", "3"), ("-2^2", "-4"), ("(1+2)(3)", "9"), ("6/2*3", "9")],
 )  # fmt: skip
 def test_the_page_reads_what_people_type(text: str, value: str) -> None:
     assert Fraction(engine()(f"said({json.dumps(text)})")) == Fraction(value)
 
 
 @pytest.mark.parametrize(
-    "text", ["", "1,5", "1,234", "1/2/3", "2^3^2", "3/2%", "0.(3)", "1/2γ", "x", "1/0", "3 e -2", "alert(1)"]
-)
+    "text", ["", "1,5", "1,234", "1/2/3", "2^3^2", "3/2%", "0.(3)", "1/2γ", "x", "1/0", "3 e -2", "alert(1)",
+             "0·5", "-0⋅5", "V(s) = 0·5", "1 3/2", "3 6/4", "2 4/4"],
+)  # fmt: skip
 def test_the_page_asks_back_where_it_is_not_sure(text: str) -> None:
     assert engine()(f"said({json.dumps(text)})") == "unreadable"
 
@@ -226,6 +227,20 @@ def test_a_number_may_stand_in_several_forms_and_a_name_before_it(
     key: str, letters: list[str], typed: str, outcome: str
 ) -> None:
     one = {"parameters": letters, "cells": [{"name": "", "key": key}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+
+
+@pytest.mark.parametrize(
+    ("typed", "outcome"),
+    [
+        ("0.8 + 0.8e", "unreadable"),
+        ("0.8*(E+1)", "unreadable"),
+        ("0.8 + 0.8ε", "right"),
+        ("8e-1*(epsilon + 1)", "right"),
+    ],
+)
+def test_an_e_is_asked_back_where_it_may_be_epsilon(typed: str, outcome: str) -> None:
+    one = {"parameters": ["epsilon"], "cells": [{"name": "", "key": "4*(epsilon + 1)/5"}], "mistakes": []}
     assert judged(one, [typed])["outcome"] == outcome
 
 
