@@ -351,8 +351,9 @@ const Judge = (() => {
       }
     }
     function agree([first, ...others]) {
-      return others.every((other) => (parameters.length ? equivalent(first.value, other.value)
-        : Math.abs(float(first.value()) - float(other.value())) <= (other.decimal ? lastDigit(other.said) / 2 : 0) + 1e-9));
+      const [here, value] = [pointOf(0), first.value];
+      return others.every((other) => (varies(value) || varies(other.value) ? equivalent(value, other.value)
+        : Math.abs(float(value(here)) - float(other.value(here))) <= (other.decimal ? lastDigit(other.said) / 2 : 0) + 1e-9));
     }
   }
   const isWord = (form) => /^[^\W\d]|^[α-ωΑ-Ω∂]/u.test(form) && !Object.hasOwn(FUNCTIONS, /^[a-z]*/iu.exec(form)[0].toLowerCase());
