@@ -3,8 +3,12 @@
 // rldrill reads it, it calls unreadable; it never calls a right answer wrong because of its spelling.
 
 const Judge = (() => {
-  class Unreadable extends Error {}
-  const refuse = (sentence) => { throw new Unreadable(sentence); };
+  // Why something is not read: a sentence, and what stands in it for each {}
+  class Unreadable extends Error {
+    constructor(sentence, values) { super(sentence); this.values = values; }
+    says(told) { return this.values.reduce((said, value) => said.replace("{}", () => value), told[this.message] ?? this.message); }
+  }
+  const refuse = (sentence, ...values) => { throw new Unreadable(sentence, values); };
 
   // Exact quotients, [numerator, denominator] with a positive denominator; anything else is a float.
   const abs = (n) => (n < 0n ? -n : n);
@@ -150,7 +154,7 @@ const Judge = (() => {
     while (TOKEN.lastIndex < text.length) {
       const start = TOKEN.lastIndex;
       const match = TOKEN.exec(text);
-      if (!match) refuse(complaint(text.slice(start).trim()));
+      if (!match) refuseRest(text.slice(start).trim());
       const [kind, value] = Object.entries(match.groups).find(([, each]) => each !== undefined);
       found.push({ kind: kind === "sign" ? (value === "**" ? "^" : value) : kind, value, spaced: /^\s/.test(match[0]) });
       if (!text.slice(TOKEN.lastIndex).trim()) break;
@@ -158,16 +162,16 @@ const Judge = (() => {
     return found;
   }
 
-  const complaint = (rest) => (rest.startsWith(",")
-    ? "A number has a comma in it; write a point before decimals, and nothing between thousands."
-    : `“${rest.slice(0, 20)}” is not understood; write a number such as 3/4 or 0.75.`);
+  const refuseRest = (rest) => (rest.startsWith(",")
+    ? refuse("A number has a comma in it; write a point before decimals, and nothing between thousands.")
+    : refuse("“{}” is not understood; write a number such as 3/4.", rest.slice(0, 20)));
 
   // Decimal commas; a point is taken for one, too, unless it may part thousands.
   const pointed = (text) => {
     const said = text.replace(/\{,\}/g, ",").replace(/[.,]?[0-9]+(?:[.,][0-9]+)*/g, (number) => {
       const [commas, points] = [",", "."].map((sign) => number.split(sign).length - 1);
       if (commas > 1 || points > 1 || (commas && points) || /^[1-9][0-9]{0,2}\.[0-9]{3}$/.test(number)) {
-        refuse(`“${number.slice(0, 20)}” may be several numbers; write a comma before decimals, and nothing between thousands.`);
+        refuse("“{}” may be several numbers; write a comma before decimals, and nothing between thousands.", number.slice(0, 20));
       }
       return number.replace(",", ".");
     });
@@ -197,7 +201,7 @@ const Judge = (() => {
     all() {
       if (!this.tokens.length) refuse("Nothing was typed.");
       const result = this.sum();
-      if (this.token.kind !== "end") refuse(`“${this.token.value}” is not expected there.`);
+      if (this.token.kind !== "end") refuse("“{}” is not expected there.", this.token.value);
       return result;
     }
     sum() {
@@ -299,7 +303,7 @@ const Judge = (() => {
         case "name":
           return this.named(token.value);
         default:
-          return refuse(`“${token.value}” is not expected there.`);
+          return refuse("“{}” is not expected there.", token.value);
       }
     }
     named(typed) {
@@ -309,10 +313,11 @@ const Judge = (() => {
       if (name === "e") return () => Math.E;
       if (name === "pi") return () => Math.PI;
       if (!(name in FUNCTIONS)) {
-        return refuse(`“${typed}” is not something this answer may contain; write ${this.parameters.length
-          ? `numbers and ${this.parameters.join(", ")}` : "the number alone"}.`);
+        return this.parameters.length
+          ? refuse("“{}” is not something this answer may contain; write numbers and {}.", typed, this.parameters.join(", "))
+          : refuse("“{}” is not something this answer may contain; write the number alone.", typed);
       }
-      if (this.token.kind !== "(") refuse(`Put brackets behind ${name}.`);
+      if (this.token.kind !== "(") refuse("Put brackets behind {}.", name);
       const inside = this.atom();
       return (at) => {
         const value = inside(at);
@@ -487,7 +492,7 @@ const Judge = (() => {
         if (!fits(index, cell.key)) wrong.push(index);
       } catch (error) {
         if (!(error instanceof Unreadable)) throw error;
-        return { outcome: "unreadable", says: (cell.name ? `${cell.name}: ` : "") + error.message, cell: index };
+        return { outcome: "unreadable", says: (cell.name ? `${cell.name}: ` : "") + error.says(told), cell: index };
       }
     }
     if (!wrong.length) return { outcome: "right", says: told.right };

@@ -1,6 +1,7 @@
 """The page judges in the browser as rldrill does; its script is run here by the browser's own engine."""
 
 import json
+import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
@@ -14,6 +15,7 @@ import rldrill
 from number_spellings import spellings
 from rldrill.export.html import task
 from rldrill.export.page import beside
+from rldrill.export.words import page_words
 from rldrill.problems.catalogue import family
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
@@ -293,3 +295,16 @@ def test_what_is_unreadable_is_named_by_its_box() -> None:
     verdict = judged(task(exercise, exercise.parts[0]), ["1", "one", "2"])
     assert verdict["outcome"] == "unreadable"
     assert verdict["says"].startswith("entry 2: ")
+
+
+def test_the_page_says_in_german_what_it_cannot_read() -> None:
+    script, german = beside("judge.js"), page_words("de").verdicts
+    english = set(re.findall(r'refuse\("([^"]+)"', script))
+    assert len(re.findall(r"refuse\(", script)) == len(re.findall(r'refuse\("[^"]+"', script))
+    assert english == {sentence for sentence in german if " " in sentence}
+    assert all(sentence.count("{}") == german[sentence].count("{}") for sentence in english)
+    one = {"parameters": ["gamma"], "cells": [{"name": "", "key": "gamma"}], "mistakes": []}
+    told = {**german, "comma": True}
+    assert judged(one, ["1.234"], told)["says"].startswith("„1.234“ kann mehrere Zahlen bedeuten")
+    assert judged(one, ["2 $& x"], told)["says"] == "„$& x“ wird nicht verstanden; schreiben Sie eine Zahl wie 3/4."
+    assert judged(one, ["2y"])["says"] == "“y” is not something this answer may contain; write numbers and gamma."
