@@ -29,6 +29,7 @@ from rldrill.print.exam_page import setup
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
+from rldrill.print.solved import solved_part
 from rldrill.print.worksheet import even_columns, options, space_of, worksheet_source
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.notations import used
@@ -252,6 +253,14 @@ def test_a_character_that_no_font_has_is_said() -> None:
     assert not needs_system_fonts(Head(title="Übung"), ())
     with pytest.raises(UsageError, match="No font on this computer has"):
         needs_system_fonts(Head(title="\U0001f9ff\ue123"), ())
+
+
+def test_the_key_says_yes_and_no_in_german() -> None:
+    """π is not optimal: the answer is no."""
+    asked = load("policy-improvement/2/1")
+    key = solved_part(Exam(Head(language="de"), 1, ()), asked, asked.parts[2])
+    assert re.findall(r'"(yes|no|ja|nein)"', key)[0] == "nein"
+    assert '"yes"' not in key
 
 
 def test_the_fixed_words_are_german_and_decimals_have_a_comma(tmp_path: Path) -> None:

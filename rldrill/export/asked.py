@@ -13,6 +13,7 @@ from rldrill.exam.choices import Language
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.print.possible import is_possible
+from rldrill.print.solved import answer_block
 from rldrill.print.words import Words, words
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.mathematics import Math
@@ -89,12 +90,12 @@ def all_or_nothing(exam: Exam, version: Version, index: int) -> frozenset[str]:
     )
 
 
-def answer(exercise: Exercise, part: Part) -> Block:
+def answer(exercise: Exercise, part: Part, told: Words) -> Block:
     """The answer to a part as it is written out; of a choice what its letter stands for, too."""
     if isinstance(part.kind, Choice):
         letter = exercise.solution.answers[part.label]
         return Paragraph(f"({letter}) {part.kind.options[letter]}")
-    return exercise.answer(part)
+    return answer_block(exercise, part, told)
 
 
 def label(exercise: Exercise, part: Part) -> str:

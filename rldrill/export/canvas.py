@@ -157,7 +157,7 @@ def _questions(
     title = f"{number:02} {inline(exercise.problem.family.title)}"
     yield _Question("text_only_question", title, writer.blocks(exercise.question()))
     for part in exercise.parts:
-        working = writer.solved(exercise, part) if practice else ""  # its pictures are files of the package
+        working = writer.solved(exercise, part, language) if practice else ""  # its pictures are files of the package
         for question in _of_part(writer, language, exercise, part):
             yield replace(question, title=f"{title} {question.title}".strip(), working=working)
 

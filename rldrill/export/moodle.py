@@ -79,7 +79,7 @@ def _question(head: Head, number: int, exercise: Exercise, times: int, *, practi
         body + "".join(_parts(writer, head.language, exercise, times, by_hand=by_hand)),
         writer,
     )
-    working = "".join(solved.solved(exercise, part) for part in exercise.parts)
+    working = "".join(solved.solved(exercise, part, head.language) for part in exercise.parts)
     _html(question, "generalfeedback", working if practice else "", solved if practice else None)
     if by_hand:
         ElementTree.SubElement(question, "defaultgrade").text = str(times * max(1, points_of(exercise)))

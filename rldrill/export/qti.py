@@ -137,7 +137,7 @@ def _item(
             conditions.append(condition)
             feedback += says
     if practice:
-        working = "".join(writer.solved(exercise, part) for part in exercise.parts)
+        working = "".join(writer.solved(exercise, part, head.language) for part in exercise.parts)
         feedback.append((_WORKING, f"<div>{working}</div>"))
         conditions.append(_tell(_WORKING))
     modal = "".join(

@@ -8,7 +8,7 @@ from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
 from rldrill.export.asked import answer
 from rldrill.export.words import page_words
-from rldrill.print.words import words, written_points, written_time
+from rldrill.print.words import Words, words, written_points, written_time
 from rldrill.problems.document import Block
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.markdown import markdown, markdown_plain, markdown_text
@@ -52,16 +52,16 @@ def _lines(exam: Exam, version: Version, answers: Sequence[str], written: Writer
         yield written(exercise.question())
         for part in exercise.parts:
             around = [each.format(page_words(head.language).working) for each in answers]
-            yield from _part(exercise, part, around, written)
+            yield from _part(exercise, part, told, around, written)
 
 
-def _part(exercise: Exercise, part: Part, answers: Sequence[str], written: Writer) -> Iterator[str]:
+def _part(exercise: Exercise, part: Part, told: Words, answers: Sequence[str], written: Writer) -> Iterator[str]:
     yield f"**({part.label})** {markdown_text(part.ask)}"
     if isinstance(part.kind, Choice):
         yield "\n".join(f"- ({letter}) {markdown_text(text)}" for letter, text in part.kind.options.items())
     if answers:
         yield answers[0]
-        yield written((answer(exercise, part), *exercise.working(part.label)))
+        yield written((answer(exercise, part, told), *exercise.working(part.label)))
         yield from answers[1:]
 
 

@@ -26,6 +26,7 @@ from rldrill.exam.roster import Person
 from rldrill.export.asked import Wrong, answer, cells, typeset
 from rldrill.export.formats import FORMATS, check, export, format_of, named, says_what_is_lost, version_path
 from rldrill.export.words import note
+from rldrill.print.words import words
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Number, Part
@@ -258,6 +259,18 @@ def test_an_exam_as_json_does_not_name_the_diagrams_that_are_to_be_named(tmp_pat
     assert all(set(part) == {"part", "ask", "kind", "points", "options"} for part in problem["parts"])
 
 
+@pytest.mark.parametrize("name", ["html", "moodle", "qti", "canvas", "latex", "markdown", "anki"])
+def test_the_answer_to_yes_or_no_is_in_the_language_of_the_exam(tmp_path: Path, name: str) -> None:
+    """π is not optimal: the answer is no. Most formats offer both words to choose from, too."""
+    if name == "anki":
+        pytest.importorskip("genanki")
+    (version,) = german().versions
+    asked = replace(version, exercises=(rldrill.load("policy-improvement/2/1"),), slots=(0,))
+    one = replace(german(), versions=(asked,))
+    (path,) = export(one, tmp_path / f"exam{FORMATS[name].ending}", FORMATS[name], practice=True)
+    assert len(re.findall(r"\bnein\b", _read(path))) == (1 if name in ("anki", "markdown") else 2)
+
+
 def test_numbers_of_json_keep_their_points(tmp_path: Path) -> None:
     (path,) = export(german(), tmp_path / "exam.json", FORMATS["json"], practice=True)
     decimals = json.loads(path.read_text("utf-8"))["versions"][0]["problems"][0]["parts"][0]["answer"]["decimal"]
@@ -466,7 +479,7 @@ def test_what_is_only_chosen_is_told_nothing_of_decimals() -> None:
 
 def test_the_right_choice_is_told_in_words_and_a_wrong_number_as_it_is_written_by_hand() -> None:
     chosen = rldrill.load("backup-diagram-name/2/13")
-    assert answer(chosen, chosen.parts[0]) == Paragraph("(B) the Monte Carlo method for state values")
+    assert answer(chosen, chosen.parts[0], words("en")) == Paragraph("(B) the Monte Carlo method for state values")
     part = Part("?", Number(), label="a")
     wrong = Wrong(("-1/8",), fmpq(-1, 8), "", None)
     assert [latex(line) for line in typeset(part, wrong)] == [r"- \frac{1}{8} = - 0.125"]
