@@ -22,11 +22,14 @@ from rldrill import draw, load, read
 from rldrill.commands import worksheet as worksheet_command
 from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.exam import Exam, Head, Layout, Version
+from rldrill.exam.manifest import manifest, written
 from rldrill.exam.planning import plan
+from rldrill.print import fonts
 from rldrill.print.exam_page import setup
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
+from rldrill.print.solved import solved_part
 from rldrill.print.worksheet import even_columns, options, space_of, worksheet_source
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.notations import used
@@ -252,6 +255,14 @@ def test_a_character_that_no_font_has_is_said() -> None:
         needs_system_fonts(Head(title="\U0001f9ff\ue123"), ())
 
 
+def test_the_key_says_yes_and_no_in_german() -> None:
+    """π is not optimal: the answer is no."""
+    asked = load("policy-improvement/2/1")
+    key = solved_part(Exam(Head(language="de"), 1, ()), asked, asked.parts[2])
+    assert re.findall(r'"(yes|no|ja|nein)"', key)[0] == "nein"
+    assert '"yes"' not in key
+
+
 def test_the_fixed_words_are_german_and_decimals_have_a_comma(tmp_path: Path) -> None:
     exam = exam_of("return", count=2, level=2, language="de", decimal_mark=",")
     assert {"Aufgabe", "Punkte", "Summe", "Matrikelnummer:"} <= set(text_of(printed(exam, tmp_path)).split())
@@ -418,6 +429,25 @@ def refused(*arguments: str | Path) -> str:
 
 def bytes_in(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.glob("*.pdf")}
+
+
+def test_a_name_in_a_problem_is_printed_with_fonts_that_have_it_or_refused_before_anything_is_written(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    text = (Path(__file__).parents[1] / "examples" / "racing-car.toml").read_text("utf-8")
+    (problem := tmp_path / "cn.toml").write_text(text.replace('"cool"', '"冷"'), "utf-8")
+    assert not needs_system_fonts(Head(), (), text)
+    (saved := tmp_path / "cn.json").write_bytes(
+        written(manifest(plan(Blueprint(problems=(Entry(file=str(problem)),), seed=1))))
+    )
+    # A computer that has no fonts of its own
+    monkeypatch.setattr(fonts, "pdf", lambda source, **how: pdf(source, **how | {"system_fonts": False}))
+    fonts._needs_system_fonts.cache_clear()
+    for arguments in ([problem, "-o", tmp_path / "new.pdf"], ["--from", saved, "-o", tmp_path / "again.pdf"]):
+        assert "No font on this computer has '冷', which the title, another text of the exam" in refused(*arguments)
+    assert not list(tmp_path.glob("*.pdf"))
+    assert not (tmp_path / "new.json").exists()
+    fonts._needs_system_fonts.cache_clear()
 
 
 def test_the_command_prints_the_files_and_echoes_the_seed(tmp_path: Path) -> None:

@@ -211,11 +211,13 @@ def _layout(exam: "Exam", changes: dict[str, Any]) -> "Layout":
 
 def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool = False, force: bool) -> list[str]:
     """Write an exam in another format; with the solutions inline it is for practice, whatever it comes from."""
-    from rldrill.export.formats import check, export, named
+    from rldrill.export.formats import check, export, named, says_what_is_lost
 
     target = named(output, format_)
     check(exam, target, format_, force=force)
     practice = practice or exam.layout.solutions == "inline"
+    if not practice and (lost := says_what_is_lost(exam, format_)):
+        typer.echo(f"rldrill: {lost}", err=True)
     with _progress("Writing", len(exam.versions)) as advance:
         return list(map(str, export(exam, target, format_, practice=practice, advance=advance)))
 
@@ -292,8 +294,7 @@ def _printed(
     people = () if roster is None else read_roster(roster)
     number = len(people) or blueprint.versions
     secret = _secret(secret_file)
-    if needs_system_fonts(blueprint.head, people):
-        typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)
+    needs_system_fonts(blueprint.head, people)  # what no font has is refused before any work is done
     fresh = blueprint.seed is None
     seed = fresh_seed() if blueprint.seed is None else blueprint.seed
     typer.echo(f"seed {seed}", err=True)
@@ -304,6 +305,8 @@ def _printed(
         exam = drawn(blueprint.but(seed=seed), typst_version(), roster=people, secret=secret, advance=advance)
     _tell(number, exam.fairness, blueprint.minutes)
     data = exam.manifest
+    if needs_system_fonts(blueprint.head, people, data.decode()):
+        typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)
     if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
         make_room(earlier(files), force=force)
     return _counted(files, number, lambda advance: write(files, data, advance))

@@ -101,7 +101,7 @@ def _solved(exercise: Exercise, part: Part, told: Words) -> str:
     wrong = "".join(_wrong(part, each) for each in listed(exercise, part))
     mistakes = f"<p>{told.mistakes}</p><ul>{wrong}</ul>" if wrong else ""
     return (
-        f"<p><b>{label(exercise, part)}</b></p>{_HTML.block(answer(exercise, part))}"
+        f"<p><b>{label(exercise, part)}</b></p>{_HTML.block(answer(exercise, part, told))}"
         f"{_HTML.blocks(exercise.working(part.label))}{mistakes}"
     )
 

@@ -10,8 +10,10 @@ from msgspec import Struct
 
 from rldrill.entries import by_name
 from rldrill.exam.choices import Language
+from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.print.possible import is_possible
+from rldrill.print.solved import answer_block
 from rldrill.print.words import Words, words
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.mathematics import Math
@@ -80,12 +82,20 @@ def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Ce
     )
 
 
-def answer(exercise: Exercise, part: Part) -> Block:
+def all_or_nothing(exam: Exam, version: Version, index: int) -> frozenset[str]:
+    """The labels of the parts that earn nothing for a wrong entry, of a problem by its place in the version, from 0."""
+    rules = version.partial[index] if version.partial else {}
+    return frozenset(
+        part.label for part in version.exercises[index].parts if rules.get(part.label, exam.partial) == "all"
+    )
+
+
+def answer(exercise: Exercise, part: Part, told: Words) -> Block:
     """The answer to a part as it is written out; of a choice what its letter stands for, too."""
     if isinstance(part.kind, Choice):
         letter = exercise.solution.answers[part.label]
         return Paragraph(f"({letter}) {part.kind.options[letter]}")
-    return exercise.answer(part)
+    return answer_block(exercise, part, told)
 
 
 def label(exercise: Exercise, part: Part) -> str:

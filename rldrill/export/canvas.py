@@ -155,18 +155,15 @@ def _questions(
 ) -> Iterator[_Question]:
     """What is given, and a question for everything that is asked."""
     title = f"{number:02} {inline(exercise.problem.family.title)}"
-    asked = [(part, cells(exercise, part, language)) for part in exercise.parts]
-    by_hand = any(is_open(cell) for _, every in asked for cell in every)
-    note = f"<p><em>{page_words(language).by_hand}</em></p>" if by_hand else ""
-    yield _Question("text_only_question", title, writer.blocks(exercise.question()) + note)
-    for part, every in asked:
-        working = writer.solved(exercise, part) if practice else ""  # its pictures are files of the package
-        for question in _of_part(writer, exercise, part, every):
+    yield _Question("text_only_question", title, writer.blocks(exercise.question()))
+    for part in exercise.parts:
+        working = writer.solved(exercise, part, language) if practice else ""  # its pictures are files of the package
+        for question in _of_part(writer, language, exercise, part):
             yield replace(question, title=f"{title} {question.title}".strip(), working=working)
 
 
-def _of_part(writer: WithFiles, exercise: Exercise, part: Part, every: Sequence[Cell]) -> Iterator[_Question]:
-    wrong = tuple(wrong_answers(exercise, part))
+def _of_part(writer: WithFiles, language: Language, exercise: Exercise, part: Part) -> Iterator[_Question]:
+    every, wrong = cells(exercise, part, language), tuple(wrong_answers(exercise, part))
     label = f"({part.label})" if len(exercise.parts) > 1 else ""
     ask, points = f"<p>{label} {writer.text(part.ask)}</p>", Decimal(part.points)
     if isinstance(part.kind, Choice | YesNo):
@@ -185,7 +182,8 @@ def _of_part(writer: WithFiles, exercise: Exercise, part: Part, every: Sequence[
         text = ask + (f"<p>{_left(writer, cell)}</p>" if len(every) > 1 or cell.left else "")
         share = points / len(every)
         if is_open(cell):
-            yield _Question("essay_question", of, text, share)
+            by_hand = f"<p><em>{page_words(language).by_hand}</em></p>"
+            yield _Question("essay_question", of, text + by_hand, share)
         else:
             told = (
                 f"<p>{_number(other)}: {escape(inline(says))}</p>" for other, says in told_apart(cell, index, wrong)

@@ -21,21 +21,23 @@ class Format(Struct, frozen=True):
         ending: of its files.
         writer: the module of this package and the function in it that writes a version, or the exam, as bytes or text.
         whole: whether one file holds all versions; else each has one of its own.
+        by_box: the program that reads it, if it can give points box by box alone.
     """
 
     name: str
     ending: str
     writer: tuple[str, str]
     whole: bool = False
+    by_box: str = ""
 
 
 FORMATS = {
     each.name: each
     for each in (
         Format("html", ".html", ("html", "html_exam")),
-        Format("moodle", ".xml", ("moodle", "moodle_exam"), whole=True),
+        Format("moodle", ".xml", ("moodle", "moodle_exam"), whole=True, by_box="Moodle"),
         Format("qti", ".zip", ("qti", "qti_exam"), whole=True),
-        Format("canvas", ".zip", ("canvas", "canvas_exam"), whole=True),
+        Format("canvas", ".zip", ("canvas", "canvas_exam"), whole=True, by_box="Canvas"),
         Format("anki", ".apkg", ("anki", "anki_exam"), whole=True),
         Format("latex", ".tex", ("latex", "latex_exam")),
         Format("markdown", ".md", ("text", "markdown_exam")),
@@ -120,6 +122,21 @@ def check(exam: Exam, path: Path, format_: Format, *, force: bool) -> None:
         )
     if there and not force:
         raise UsageError(f"{there[0]} is there already; --force replaces it, or choose another name with -o.")
+
+
+def says_what_is_lost(exam: Exam, format_: Format) -> str:
+    """Where a program gives points that the exam does not: a sentence, or nothing."""
+    from rldrill.export.asked import all_or_nothing, cells
+
+    several = (
+        part.label in all_or_nothing(exam, version, index) and len(cells(exercise, part)) > 1
+        for version in exam.versions
+        for index, exercise in enumerate(version.exercises)
+        for part in exercise.parts
+    )
+    if not format_.by_box or not any(several):
+        return ""
+    return f'{format_.by_box} marks box by box: parts with partial = "all" earn a share there for what is right in them'
 
 
 def version_path(exam: Exam, path: Path, format_: Format, version: Version) -> Path:

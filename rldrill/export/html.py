@@ -114,7 +114,7 @@ def part_form(language: Language, number: int, exercise: Exercise, part: Part, *
     told, said = words(language), page_words(language)
     worth = f" <small>({written_points(told, part.points)})</small>" if len(exercise.parts) > 1 else ""
     judged = f'<button type="submit">{said.check}</button><output></output>\n' if practice else ""
-    helps = _helps(said, exercise, part) if practice else ""
+    helps = _helps(language, exercise, part) if practice else ""
     extra = ' autocomplete="off"' if practice else ""
     return (
         f'<{tag} class="part" id="{name}"{extra}>\n'
@@ -123,10 +123,11 @@ def part_form(language: Language, number: int, exercise: Exercise, part: Part, *
     )
 
 
-def _helps(said: PageWords, exercise: Exercise, part: Part) -> str:
+def _helps(language: Language, exercise: Exercise, part: Part) -> str:
+    said, found = page_words(language), answer(exercise, part, words(language))
     return (
         f'<details class="hint"><summary>{said.hint}</summary>{HTML.blocks(exercise.hint(part.label))}</details>\n'
-        f'<details class="working"><summary>{said.working}</summary>{HTML.block(answer(exercise, part))}'
+        f'<details class="working"><summary>{said.working}</summary>{HTML.block(found)}'
         f"{HTML.blocks(exercise.working(part.label))}</details>\n"
     )
 

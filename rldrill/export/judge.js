@@ -3,8 +3,12 @@
 // rldrill reads it, it calls unreadable; it never calls a right answer wrong because of its spelling.
 
 const Judge = (() => {
-  class Unreadable extends Error {}
-  const refuse = (sentence) => { throw new Unreadable(sentence); };
+  // Why something is not read: a sentence, and what stands in it for each {}
+  class Unreadable extends Error {
+    constructor(sentence, values) { super(sentence); this.values = values; }
+    says(told) { return this.values.reduce((said, value) => said.replace("{}", () => value), told[this.message] ?? this.message); }
+  }
+  const refuse = (sentence, ...values) => { throw new Unreadable(sentence, values); };
 
   // Exact quotients, [numerator, denominator] with a positive denominator; anything else is a float.
   const abs = (n) => (n < 0n ? -n : n);
@@ -107,6 +111,9 @@ const Judge = (() => {
     exp: (x) => (isZero(x) ? whole(1) : finite(Math.exp(float(x)))),
     ln: (x) => finite(Math.log(float(x))),
     log: (x) => finite(Math.log(float(x))),
+    sin: (x) => finite(Math.sin(float(x))),
+    cos: (x) => finite(Math.cos(float(x))),
+    tan: (x) => finite(Math.tan(float(x))),
   };
 
   // One spelling
@@ -147,7 +154,7 @@ const Judge = (() => {
     while (TOKEN.lastIndex < text.length) {
       const start = TOKEN.lastIndex;
       const match = TOKEN.exec(text);
-      if (!match) refuse(complaint(text.slice(start).trim()));
+      if (!match) refuseRest(text.slice(start).trim());
       const [kind, value] = Object.entries(match.groups).find(([, each]) => each !== undefined);
       found.push({ kind: kind === "sign" ? (value === "**" ? "^" : value) : kind, value, spaced: /^\s/.test(match[0]) });
       if (!text.slice(TOKEN.lastIndex).trim()) break;
@@ -155,16 +162,16 @@ const Judge = (() => {
     return found;
   }
 
-  const complaint = (rest) => (rest.startsWith(",")
-    ? "A number has a comma in it; write a point before decimals, and nothing between thousands."
-    : `“${rest.slice(0, 20)}” is not understood; write a number such as 3/4 or 0.75.`);
+  const refuseRest = (rest) => (rest.startsWith(",")
+    ? refuse("A number has a comma in it; write a point before decimals, and nothing between thousands.")
+    : refuse("“{}” is not understood; write a number such as 3/4.", rest.slice(0, 20)));
 
   // Decimal commas; a point is taken for one, too, unless it may part thousands.
   const pointed = (text) => {
     const said = text.replace(/\{,\}/g, ",").replace(/[.,]?[0-9]+(?:[.,][0-9]+)*/g, (number) => {
       const [commas, points] = [",", "."].map((sign) => number.split(sign).length - 1);
       if (commas > 1 || points > 1 || (commas && points) || /^[1-9][0-9]{0,2}\.[0-9]{3}$/.test(number)) {
-        refuse(`“${number.slice(0, 20)}” may be several numbers; write a comma before decimals, and nothing between thousands.`);
+        refuse("“{}” may be several numbers; write a comma before decimals, and nothing between thousands.", number.slice(0, 20));
       }
       return number.replace(",", ".");
     });
@@ -194,7 +201,7 @@ const Judge = (() => {
     all() {
       if (!this.tokens.length) refuse("Nothing was typed.");
       const result = this.sum();
-      if (this.token.kind !== "end") refuse(`“${this.token.value}” is not expected there.`);
+      if (this.token.kind !== "end") refuse("“{}” is not expected there.", this.token.value);
       return result;
     }
     sum() {
@@ -279,7 +286,9 @@ const Judge = (() => {
           const before = this.tokens[this.next - 2]?.kind;
           if (!["+", "-", "(", undefined].includes(before)) refuse("Put brackets around the mixed number.");
           const [, digits, rest] = /^([0-9]+)\s*(.*)$/u.exec(token.value);
-          const value = add(whole(digits), fraction(VULGAR[rest] ?? rest));
+          const below = fraction(VULGAR[rest] ?? rest);
+          if (below[0] >= below[1]) refuse("After a whole number the fraction must be below one, as in 1 3/4; write a sign between.");
+          const value = add(whole(digits), below);
           return () => value;
         }
         case "(": {
@@ -294,21 +303,22 @@ const Judge = (() => {
         case "name":
           return this.named(token.value);
         default:
-          return refuse(`“${token.value}” is not expected there.`);
+          return refuse("“{}” is not expected there.", token.value);
       }
     }
     named(typed) {
       const name = this.parameters.includes(typed) ? typed : GREEK[typed] ?? typed.toLowerCase();
       if (this.parameters.includes(name)) return (at) => at(name);
+      if (name === "e" && this.parameters.includes("epsilon")) refuse("“e” may be ε or the number e; write epsilon, or exp(1).");
       if (name === "e") return () => Math.E;
       if (name === "pi") return () => Math.PI;
       if (!(name in FUNCTIONS)) {
-        return refuse(`“${typed}” is not something this answer may contain; write ${this.parameters.length
-          ? `numbers and ${this.parameters.join(", ")}` : "the number alone"}.`);
+        return this.parameters.length
+          ? refuse("“{}” is not something this answer may contain; write numbers and {}.", typed, this.parameters.join(", "))
+          : refuse("“{}” is not something this answer may contain; write the number alone.", typed);
       }
-      if (this.token.kind !== "(") refuse(`Put brackets behind ${name}.`);
+      if (this.token.kind !== "(") refuse("Put brackets behind {}.", name);
       const inside = this.atom();
-      if (this.token.kind === "^" || this.token.kind === "raised") refuse("Put brackets around what is raised.");
       return (at) => {
         const value = inside(at);
         if (value instanceof Ratio) throw new NoRatio();
@@ -320,24 +330,55 @@ const Judge = (() => {
   // A number, perhaps in several forms, with a name before it: V(s) = 1/4 = 0.25
   function read(typed, parameters = [], comma = false) {
     if (typed.length > 400) refuse("It is too long.");
-    let text = spelled(typed).replace(/^[≈~]\s*/u, "");
+    const text = spelled(typed).replace(/^[≈~]\s*/u, "").replace(/≈\s*([-+]?[0-9]+)$/u, "≈ $1.");
     if (!text) refuse("Nothing was typed.");
-    let forms = text.split(/[=≈:]/u).map((form) => form.trim());
-    if (forms.length > 1 && (!forms[0] || /^[^\W\d]|^[α-ωΑ-Ω∂]/u.test(forms[0]))) forms = forms.slice(1);
-    const readings = forms.map((form) => {
-      const parser = new Parser(comma ? pointed(form) : form, parameters);
+    if (/(?<![0-9.,])0[·⋅∙][0-9]/u.test(typed)) refuse("A raised point may be a decimal point, or a sign for times; write another one.");
+    const forms = text.split(/[=≈:]/u).map((form) => form.trim());
+    const one = (form) => {
+      const said = comma ? pointed(form) : form;
+      const parser = new Parser(said, parameters);
       const value = parser.all();
       POINTS.slice(0, parameters.length ? 2 : 1).forEach((_, number) => float(value(pointOf(number))));
-      return { value, decimal: parser.decimal };
-    });
-    const [first, ...others] = readings;
-    for (const other of others) {
-      const same = parameters.length ? equivalent(first.value, other.value)
-        : Math.abs(float(first.value()) - float(other.value())) <= (other.decimal ? 5e-3 * Math.abs(float(first.value())) : 1e-9);
-      if (!same) refuse("It says two numbers which differ; write one.");
+      return { value, decimal: parser.decimal, said };
+    };
+    if (forms.length > 1 && (!forms[0] || (isWord(forms[0]) && !ifRead(() => one(forms[0]))))) forms.shift();
+    forms.forEach(refuseTwice);
+    const readings = forms.map(one);
+    if (forms.length > 1 && NAME.test(forms[0]) && !agree(readings)) readings.shift(); // e = 2 may name the trace
+    return agree(readings) ? readings[0] : refuse("It says two numbers which differ; write one.");
+
+    // Behind a space, in brackets: a factor, or the same again?
+    function refuseTwice(form) {
+      const [, before, inside] = /^(.*\S)\s+\((.*)\)$/su.exec(form) ?? [];
+      const both = before && ifRead(() => [before, inside].map(one));
+      if (both && (/^[-+0-9.,/%\s]+$/u.test(inside) || agree(both) || agree([...both].reverse()))) {
+        refuse("What stands in brackets may be a factor, or the same number again; write one number.");
+      }
     }
-    return first;
+    function agree([first, ...others]) {
+      const [here, value] = [pointOf(0), first.value];
+      return others.every((other) => (varies(value) || varies(other.value) ? equivalent(value, other.value)
+        : Math.abs(float(value(here)) - float(other.value(here))) <= (other.decimal ? lastDigit(other.said) / 2 : 0) + 1e-9));
+    }
   }
+  const isWord = (form) => /^[^\W\d]|^[α-ωΑ-Ω∂]/u.test(form) && !Object.hasOwn(FUNCTIONS, /^[a-z]*/iu.exec(form)[0].toLowerCase());
+  const NAME = /^\p{L}[\p{L}\p{N}_' ]*(?:\([^()]*\)|\[[^[\]]*\])?$/u;
+  // The unit of the last digit of a decimal, to which another form of it may be rounded; 0 where there is more than that
+  const lastDigit = (said) => {
+    const found = /^[-+]?\s*(?:[0-9]+(?:\.([0-9]*))?|\.([0-9]+))(?:e([-+]?[0-9]+))?\s*(%)?$/iu.exec(said);
+    if (!found) return 0;
+    const [, behind, alone, exponent, percent] = found;
+    return 10 ** (Number(exponent ?? 0) - (behind ?? alone ?? "").length - (percent ? 2 : 0));
+  };
+  // What a work gives; nothing where something in it cannot be read or has no value
+  const ifRead = (work) => {
+    try {
+      return work();
+    } catch (error) {
+      if (!(error instanceof Unreadable)) throw error;
+      return null;
+    }
+  };
 
   // The rule
   const POINTS = [0.3819660113, 0.1415926536, 0.7182818285, 0.5772156649, 0.9159655942, 0.2502907875, 0.6434105463, 0.8346268417];
@@ -422,9 +463,11 @@ const Judge = (() => {
   const closeTo = (reading, keyText, parameters) => {
     const key = new Parser(keyText, parameters).all();
     if (parameters.length && (varies(reading.value) || varies(key))) return false;
-    const [a, b] = [float(reading.value(pointOf(0))), float(key(pointOf(0)))];
-    if (!reading.decimal && !Number.isInteger(a)) return false; // who writes 5/16 or 2√3 means just that
-    return b !== 0 && Math.abs(a - b) <= Math.abs(b) / 50;
+    const [a, b] = [reading.value(pointOf(0)), key(pointOf(0))];
+    if (!reading.decimal && !Number.isInteger(float(a))) return false; // who writes 5/16 or 2√3 means just that
+    if (isZero(b)) return false;
+    const off = subtract(divide(a, b), whole(1)); // exactly, where both are: 0.17 is 2 % off 1/6
+    return isExact(off) ? abs(off[0]) * 50n <= off[1] : Math.abs(off) <= 1 / 50;
   };
 
   const TOLD = {
@@ -435,24 +478,25 @@ const Judge = (() => {
   // One part: what was typed for each of its cells, and what is known of it, in words that may be others than ours.
   function part(task, typed, others = {}) {
     const told = { ...TOLD, ...others };
-    const readings = [];
+    const readings = [], wrong = [];
+    const fits = (index, key) => (Array.isArray(key) ? key.includes(readings[index]) : right(readings[index], key, task.parameters));
     for (const [index, cell] of task.cells.entries()) {
       if (cell.words) {
         if (!typed[index]) return { outcome: "unreadable", says: told.choose, cell: index };
         readings.push(typed[index]);
+        if (!fits(index, cell.words)) wrong.push(index);
         continue;
       }
       try {
         readings.push(read(typed[index] ?? "", task.parameters, told.comma));
+        if (!fits(index, cell.key)) wrong.push(index);
       } catch (error) {
         if (!(error instanceof Unreadable)) throw error;
-        return { outcome: "unreadable", says: (cell.name ? `${cell.name}: ` : "") + error.message, cell: index };
+        return { outcome: "unreadable", says: (cell.name ? `${cell.name}: ` : "") + error.says(told), cell: index };
       }
     }
-    const fits = (index, key) => (Array.isArray(key) ? key.includes(readings[index]) : right(readings[index], key, task.parameters));
-    const wrong = task.cells.map((_, index) => index).filter((index) => !fits(index, task.cells[index].words ?? task.cells[index].key));
     if (!wrong.length) return { outcome: "right", says: told.right };
-    const made = task.mistakes.find((mistake) => mistake.cells.every((key, index) => fits(index, key)));
+    const made = task.mistakes.find((mistake) => ifRead(() => mistake.cells.every((key, index) => fits(index, key))));
     if (made) return { outcome: "misconception", says: made.says, read: made.read, wrong };
     if (wrong.every((index) => !task.cells[index].words && closeTo(readings[index], task.cells[index].key, task.parameters))) {
       return { outcome: "close", says: told.close, wrong };

@@ -97,7 +97,7 @@ def _part(exercise: Exercise, part: Part, told: Words, *, with_solutions: bool) 
     space = "" if options else f"{max(2, whole(minutes_of(exercise.solution, part.label)))}cm"
     if not with_solutions:
         return f"{asked}\\vspace{{{space}}}\n" if space else asked
-    body = latex_document((answer(exercise, part), *exercise.working(part.label)))
+    body = latex_document((answer(exercise, part, told), *exercise.working(part.label)))
     wrong = _mistakes(exercise, part, told.mistakes)
     return f"{asked}\\begin{{solution}}{f'[{space}]' if space else ''}\n{body}{wrong}\\end{{solution}}\n"
 

@@ -57,12 +57,8 @@ def _html(question: ElementTree.Element, tag: str, text: str, writer: WithFiles 
 
 def _times(exercises: Sequence[Exercise]) -> int:
     """By how much all points are multiplied: Moodle adds up the weights of the boxes, which are whole numbers."""
-    parts = [(_points(part), len(cells(exercise, part))) for exercise in exercises for part in exercise.parts]
+    parts = [(part.points, len(cells(exercise, part))) for exercise in exercises for part in exercise.parts]
     return lcm(*(boxes // gcd(points, boxes) for points, boxes in parts))
-
-
-def _points(part: Part) -> int:
-    return max(1, part.points)
 
 
 def _question(head: Head, number: int, exercise: Exercise, times: int, *, practice: bool) -> ElementTree.Element:
@@ -79,10 +75,10 @@ def _question(head: Head, number: int, exercise: Exercise, times: int, *, practi
         body + "".join(_parts(writer, head.language, exercise, times, by_hand=by_hand)),
         writer,
     )
-    working = "".join(solved.solved(exercise, part) for part in exercise.parts)
+    working = "".join(solved.solved(exercise, part, head.language) for part in exercise.parts)
     _html(question, "generalfeedback", working if practice else "", solved if practice else None)
     if by_hand:
-        ElementTree.SubElement(question, "defaultgrade").text = str(times * max(1, points_of(exercise)))
+        ElementTree.SubElement(question, "defaultgrade").text = str(times * points_of(exercise))
         ElementTree.SubElement(question, "responseformat").text = "editor"
         _html(question, "graderinfo", working, solved)
     if exercise.id:
@@ -96,7 +92,7 @@ def _parts(writer: WithFiles, language: Language, exercise: Exercise, times: int
         yield f"<p>{label(exercise, part)}{writer.text(part.ask)}</p>"
         if by_hand:
             continue
-        weight = times * _points(part) // len(asked[part.label])
+        weight = times * part.points // len(asked[part.label])
         wrong = tuple(wrong_answers(exercise, part))
         boxes = [_box(language, part, cell, index, weight, wrong) for index, cell in enumerate(asked[part.label])]
         yield _laid_out(writer, part, asked[part.label], boxes)

@@ -3,13 +3,24 @@
 https://www.imsglobal.org/question/qtiv2p1/imsqti_infov2p1.html
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from decimal import Decimal
 from html import escape
 
 from rldrill.exam.exam import Exam, Head, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, label, told_apart, wrong_answers
+from rldrill.export.asked import (
+    Cell,
+    Quantity,
+    Word,
+    Wrong,
+    all_or_nothing,
+    cells,
+    is_open,
+    label,
+    told_apart,
+    wrong_answers,
+)
 from rldrill.export.packed import packed
 from rldrill.export.with_files import WithFiles, matrix_rows
 from rldrill.export.words import note
@@ -67,7 +78,8 @@ def qti_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda
         names = []
         for number, exercise in enumerate(version.exercises, 1):
             writer = _Writer(name := f"item-{version.code}-{number}", end="/>")
-            files[f"{name}.xml"] = _item(exam.head, writer, name, number, exercise, practice=practice)
+            whole = all_or_nothing(exam, version, number - 1)
+            files[f"{name}.xml"] = _item(exam.head, writer, name, number, exercise, whole, practice=practice)
             files |= writer.files
             resources.append(_resource(name, "item", [*writer.files]))
             names.append(name)
@@ -101,21 +113,31 @@ def _test(exam: Exam, version: Version, names: Sequence[str]) -> str:
     )
 
 
-def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercise, *, practice: bool) -> str:
+def _item(
+    head: Head, writer: _Writer, name: str, number: int, exercise: Exercise, whole: Collection[str], *, practice: bool
+) -> str:
     asked = [
-        _Asked(part, cells(exercise, part, head.language), tuple(wrong_answers(exercise, part)))
+        _Asked(
+            part,
+            cells(exercise, part, head.language),
+            tuple(wrong_answers(exercise, part)),
+            whole=part.label in whole,
+        )
         for part in exercise.parts
     ]
-    told = note(head, [cell for each in asked for cell in each.cells], reads="point")
-    body = "".join(each.body(writer, label(exercise, each.part)) for each in asked)
-    question = writer.blocks(exercise.question()) + (f"<p><em>{told}</em></p>" if told else "")
+    told = note(head, [cell for each in asked if not each.by_hand for cell in each.cells], reads="point")
+    body = "".join(
+        each.body(writer, label(exercise, each.part), note(head, each.cells, reads="point") if each.by_hand else "")
+        for each in asked
+    )
+    question = writer.blocks(exercise.question()) + _noted(told)
     conditions, feedback = [], []
     for each in asked:
         for condition, says in each.judged():
             conditions.append(condition)
             feedback += says
     if practice:
-        working = "".join(writer.solved(exercise, part) for part in exercise.parts)
+        working = "".join(writer.solved(exercise, part, head.language) for part in exercise.parts)
         feedback.append((_WORKING, f"<div>{working}</div>"))
         conditions.append(_tell(_WORKING))
     modal = "".join(
@@ -134,24 +156,42 @@ def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercis
     )
 
 
-class _Asked:
-    """A part, and its cells as responses."""
+def _noted(told: str) -> str:
+    return f"<p><em>{told}</em></p>" if told else ""
 
-    def __init__(self, part: Part, asked: Sequence[Cell], wrong: Sequence[Wrong]) -> None:
+
+class _Asked:
+    """A part, and its cells as responses.
+
+    ``by_hand`` says whether it is marked by a person, and then as a whole; ``whole`` whether a wrong cell costs all.
+    """
+
+    def __init__(self, part: Part, asked: Sequence[Cell], wrong: Sequence[Wrong], *, whole: bool) -> None:
         self.part, self.cells, self.wrong = part, asked, wrong
-        self._worth = f"{Decimal(part.points) / len(asked):.6g}"
+        self.by_hand, self._whole = any(map(is_open, asked)), whole
 
     def declared(self) -> str:
         """The responses with what is right in them."""
         return "".join(
-            f'<responseDeclaration identifier="{self._name(index)}" cardinality="single" baseType="{_type(cell)}"'
-            f"{_right(cell)}\n"
+            f'<responseDeclaration identifier="{self._name(index)}" cardinality="single" baseType="{self._type(cell)}"'
+            f"><correctResponse><value>{escape(self._right(cell))}</value></correctResponse></responseDeclaration>\n"
             for index, cell in enumerate(self.cells)
         )
 
-    def body(self, writer: _Writer, letter: str) -> str:
-        """What is asked, and where it is answered."""
-        ask = f"<p>{letter}{writer.text(self.part.ask)}</p>\n"
+    def _type(self, cell: Cell) -> str:
+        if isinstance(cell, Word):
+            return "identifier"
+        return "string" if self.by_hand else "float"
+
+    def _right(self, cell: Cell) -> str:
+        """The right answer, or one of them."""
+        if isinstance(cell, Word):
+            return _key(cell, cell.right[0])
+        return cell.exact if self.by_hand or cell.decimal is None else cell.decimal
+
+    def body(self, writer: _Writer, letter: str, told: str) -> str:
+        """What is asked with what is told of it, and where it is answered."""
+        ask = f"<p>{letter}{writer.text(self.part.ask)}</p>\n{_noted(told)}"
         if isinstance(self.part.kind, Choice | YesNo):
             (only,) = self.cells
             assert isinstance(only, Word)
@@ -161,7 +201,7 @@ class _Asked:
             )
             return f'{ask}<choiceInteraction responseIdentifier="{self._name(0)}" shuffle="false" maxChoices="1">' \
                    f"{options}</choiceInteraction>\n"  # fmt: skip
-        if any(map(is_open, self.cells)):
+        if self.by_hand:
             places = (
                 f'<div>{_left(writer, cell)}<extendedTextInteraction responseIdentifier="{self._name(index)}"/></div>'
                 for index, cell in enumerate(self.cells)
@@ -174,23 +214,22 @@ class _Asked:
         return f"{ask}{''.join(lines)}\n"
 
     def judged(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-        """For every cell how it is judged, and what is told of its wrong answers."""
+        """What earns points, and of every cell what is told of its wrong answers."""
+        if self.by_hand:
+            return
+        rights = [_is_right(self._name(index), cell) for index, cell in enumerate(self.cells)]
+        earning = [_all(rights)] if self._whole else rights
+        worth = f"{Decimal(self.part.points) / len(earning):.6g}"
+        score = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{worth}</baseValue></sum>'
+        for right in earning:
+            yield _first([(right, f'<setOutcomeValue identifier="SCORE">{score}</setOutcomeValue>')]), []
         for index, cell in enumerate(self.cells):
-            if is_open(cell):
-                continue
-            name = self._name(index)
-            right = _is_right(name, cell)
-            worth = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{self._worth}</baseValue></sum>'
-            tests, told = [], []
-            for number, (test, says) in enumerate(self._mistakes(index, cell), 1):
-                key = f"F_{name}_{number}"
-                tests.append(f"<responseElseIf>{test}{_tell(key)}</responseElseIf>")
-                told.append((key, f"<p>{escape(inline(says))}</p>"))
-            yield (
-                f'<responseCondition><responseIf>{right}<setOutcomeValue identifier="SCORE">{worth}</setOutcomeValue>'
-                f"</responseIf>{''.join(tests)}</responseCondition>\n",
-                told,
-            )
+            known = [(f"F_{self._name(index)}_{n}", *each) for n, each in enumerate(self._mistakes(index, cell), 1)]
+            if known:
+                yield (
+                    _first([(test, _tell(key)) for key, test, _ in known]),
+                    [(key, f"<p>{escape(inline(says))}</p>") for key, _, says in known],
+                )
 
     def _mistakes(self, index: int, cell: Cell) -> Iterator[tuple[str, str]]:
         name = self._name(index)
@@ -231,23 +270,22 @@ def _key(cell: Word, option: str) -> str:
     return f"o{[*cell.options].index(option) + 1}"
 
 
-def _type(cell: Cell) -> str:
-    if isinstance(cell, Word):
-        return "identifier"
-    return "string" if is_open(cell) else "float"
-
-
-def _right(cell: Cell) -> str:
-    """The end of a declaration: the right answer, or one of them."""
-    right = _key(cell, cell.right[0]) if isinstance(cell, Word) else cell.decimal or cell.exact
-    return f"><correctResponse><value>{escape(right)}</value></correctResponse></responseDeclaration>"
-
-
 def _is_right(name: str, cell: Cell) -> str:
     if isinstance(cell, Quantity):
         return _equal(name, cell)
     tests = [_is(name, _key(cell, option)) for option in cell.right]
     return tests[0] if len(tests) == 1 else f"<or>{''.join(tests)}</or>"
+
+
+def _all(tests: Sequence[str]) -> str:
+    return tests[0] if len(tests) == 1 else f"<and>{''.join(tests)}</and>"
+
+
+def _first(rules: Sequence[tuple[str, str]]) -> str:
+    """What is done where the first of these tests holds that does."""
+    tags = ["responseIf", *["responseElseIf"] * (len(rules) - 1)]
+    branches = "".join(f"<{tag}>{test}{does}</{tag}>" for tag, (test, does) in zip(tags, rules, strict=True))
+    return f"<responseCondition>{branches}</responseCondition>\n"
 
 
 def _is(name: str, key: str) -> str:

@@ -8,7 +8,7 @@ from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
 from rldrill.export.asked import answer
 from rldrill.export.words import page_words
-from rldrill.print.words import words, written_points, written_time
+from rldrill.print.words import Words, words, written_points, written_time
 from rldrill.problems.document import Block
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.markdown import markdown, markdown_plain, markdown_text
@@ -52,23 +52,24 @@ def _lines(exam: Exam, version: Version, answers: Sequence[str], written: Writer
         yield written(exercise.question())
         for part in exercise.parts:
             around = [each.format(page_words(head.language).working) for each in answers]
-            yield from _part(exercise, part, around, written)
+            yield from _part(exercise, part, told, around, written)
 
 
-def _part(exercise: Exercise, part: Part, answers: Sequence[str], written: Writer) -> Iterator[str]:
+def _part(exercise: Exercise, part: Part, told: Words, answers: Sequence[str], written: Writer) -> Iterator[str]:
     yield f"**({part.label})** {markdown_text(part.ask)}"
     if isinstance(part.kind, Choice):
         yield "\n".join(f"- ({letter}) {markdown_text(text)}" for letter, text in part.kind.options.items())
     if answers:
         yield answers[0]
-        yield written((answer(exercise, part), *exercise.working(part.label)))
+        yield written((answer(exercise, part, told), *exercise.working(part.label)))
         yield from answers[1:]
 
 
 def json_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> str:
-    """All versions as JSON; for practice with answers, steps and wrong answers."""
+    """All versions as JSON; for practice with answers, steps and wrong answers, and what a problem file holds."""
     versions = []
-    hidden = set() if practice or exam.layout.ids else {"id"}  # an ID is its key
+    # A diagram's givens name what it shows, and rldrill solves any problem of which it has the givens, or the ID.
+    hidden = () if practice else ("given",) if exam.layout.ids else ("given", "id")
     for version in exam.versions:
         told = (
             exercise.data(answers=practice, mistakes=_MISTAKES if practice else 0) for exercise in version.exercises

@@ -3,8 +3,10 @@
 from collections.abc import Sequence
 from html import escape
 
+from rldrill.exam.choices import Language
 from rldrill.exercise import Exercise
 from rldrill.export.asked import answer
+from rldrill.print.words import words
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
@@ -33,9 +35,9 @@ class WithFiles(LatexHtml):
         self.files[name] = drawing
         return f'<p><img src="{self._place}{name}" alt="{escape(described(picture))}"{self._end}</p>'
 
-    def solved(self, exercise: Exercise, part: Part) -> str:
+    def solved(self, exercise: Exercise, part: Part, language: Language) -> str:
         """The answer to a part, and its working."""
-        return self.block(answer(exercise, part)) + self.blocks(exercise.working(part.label))
+        return self.block(answer(exercise, part, words(language))) + self.blocks(exercise.working(part.label))
 
 
 def matrix_rows(boxes: Sequence[str], kind: Matrix) -> str:

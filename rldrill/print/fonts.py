@@ -12,8 +12,13 @@ from rldrill.problems.errors import UsageError
 _MISSING = re.compile('the text [`‘"]*(.+?)[`’"]* could not be displayed')
 
 
-def needs_system_fonts(head: Head, people: Sequence[Person]) -> bool:
+def needs_system_fonts(head: Head, people: Sequence[Person], problems: str = "") -> bool:
     """Whether the words of an exam need the fonts of this computer.
+
+    Args:
+        head: of the exam.
+        people: whose names are printed.
+        problems: what the problems are made of, with what is named in them.
 
     Raises:
         UsageError: no font here has a character of them.
@@ -21,7 +26,8 @@ def needs_system_fonts(head: Head, people: Sequence[Person]) -> bool:
     own = [head.title, head.course, head.date, head.instructions]
     own += [word for person in people for word in (person.name, person.number)]
     words = "".join(dict.fromkeys("".join(own)))
-    return False if words.isascii() else _needs_system_fonts(words)
+    names = "".join(sorted({sign for sign in problems if not sign.isascii()}))
+    return False if words.isascii() and not names else _needs_system_fonts(words + names)
 
 
 @cache
@@ -32,8 +38,8 @@ def _needs_system_fonts(words: str) -> bool:
     if missing is None:
         return True
     raise UsageError(
-        f"No font on this computer has {missing[:20]!r}, which the title, another text of the exam or a "
-        "name has; install one that has it, such as Noto, or write it in other letters."
+        f"No font on this computer has {missing[:20]!r}, which the title, another text of the exam, a "
+        "name or a problem has; install one that has it, such as Noto, or write it in other letters."
     )
 
 

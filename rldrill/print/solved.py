@@ -9,10 +9,11 @@ from rldrill.exercise import Exercise
 from rldrill.misreading import misreading
 from rldrill.print.exam_page import label
 from rldrill.print.possible import is_possible
-from rldrill.print.words import words, written_points
-from rldrill.problems.document import Block
+from rldrill.print.words import Words, words, written_points
+from rldrill.problems.document import Block, Equation
+from rldrill.problems.mathematics import EMPTY, Math, name
 from rldrill.problems.notations import all_in_notation
-from rldrill.problems.parts import Choice, Part
+from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.render.mathematics.typst import equation, plain, quoted, text
 from rldrill.render.typst import block, document, line
 from rldrill.render.unicode import unicode_text
@@ -30,16 +31,28 @@ def solved_part(exam: Exam, exercise: Exercise, part: Part) -> str:
     """The answer of a part, then how it is found and what else is answered."""
     told = words(exam.head.language)
     worth = plain(written_points(told, part.points))
-    answer = f"#answer-block([{label(exercise, part.label)}], [{_answer(exercise, part)}], [{worth}])\n"
+    answer = f"#answer-block([{label(exercise, part.label)}], [{_answer(exercise, part, told)}], [{worth}])\n"
     working = "".join(_earned(blocks, points) for blocks, points in exercise.scheme(part.label))
-    return answer + working + _mistakes(exercise, part, told.mistakes)
+    return answer + working + _mistakes(exercise, part, told)
 
 
-def _answer(exercise: Exercise, part: Part) -> str:
+def _answer(exercise: Exercise, part: Part, told: Words) -> str:
     if isinstance(part.kind, Choice):
         letter = answer_kind(part.kind).write(exercise.solution.answers[part.label])
         return text(f"({letter}) {part.kind.options[letter]}")
-    return block(exercise.answer(part))
+    return block(answer_block(exercise, part, told))
+
+
+def answer_block(exercise: Exercise, part: Part, told: Words) -> Equation:
+    """The answer to a part, one line for every number; yes and no in the language of the exam."""
+    lines = _lines(part, exercise.solution.answers[part.label], told)
+    return Equation(EMPTY, lines, ("",) * len(lines))
+
+
+def _lines(part: Part, answer: Any, told: Words) -> tuple[Math, ...]:
+    if isinstance(part.kind, YesNo):
+        return (name(told.yes if answer else told.no),)
+    return answer_lines(part, answer)
 
 
 def _earned(blocks: tuple[Block, ...], points: int) -> str:
@@ -49,12 +62,12 @@ def _earned(blocks: tuple[Block, ...], points: int) -> str:
     return f"{document(tuple(before))}#earning([{points}])[{block(last)}]\n"
 
 
-def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
+def _mistakes(exercise: Exercise, part: Part, told: Words) -> str:
     rows = [
         f"([{given}], [{text(with_mathematics(mistake.says))}{_read(exercise, mistake)}])"
-        for given, mistake in _wrong(exercise, part)
+        for given, mistake in _wrong(exercise, part, told)
     ]
-    return f"#mistakes([{plain(title)}], {', '.join(rows)})\n" if rows else ""
+    return f"#mistakes([{plain(told.mistakes)}], {', '.join(rows)})\n" if rows else ""
 
 
 def with_mathematics(sentence: str) -> str:
@@ -68,21 +81,21 @@ def _read(exercise: Exercise, mistake: Misconception) -> str:
     return "" if read is None else f" #tall({quoted(unicode_text(read))}, ${line(read)}$)"
 
 
-def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, Misconception]]:
+def _wrong(exercise: Exercise, part: Part, told: Words) -> Iterator[tuple[str, Misconception]]:
     """The wrong answers that typical mistakes give, each once, with the mistake."""
-    told = set[str]()
+    known = set[str]()
     for misconception, answers in exercise.solution.mistakes:
-        if len(told) == _MISTAKES:
+        if len(known) == _MISTAKES:
             return
         answer = answers[part.label]
         written = answer_kind(part.kind).write(answer)
-        if written in told or not _tells(exercise, part, answer) or not is_possible(exercise, part, answer):
+        if written in known or not _tells(exercise, part, answer) or not is_possible(exercise, part, answer):
             continue
-        told.add(written)
+        known.add(written)
         if isinstance(part.kind, Choice):
             yield plain(f"({written})"), misconception
         else:
-            lines = all_in_notation(answer_lines(part, answer))
+            lines = all_in_notation(_lines(part, answer, told))
             yield " #h(0.8em) ".join(equation(each, "tall") for each in lines), misconception
 
 

@@ -78,7 +78,8 @@ def _typeset(task: Task) -> list[Path]:
     exam, wanted = task.exam, ((task.worksheet, worksheet_source), (task.key, key_source))
     with used(exam.layout.notation, exam.head.decimal_mark):
         version = task.make()
-        system = needs_system_fonts(exam.head, () if version.person is None else (version.person,))
+        people = () if version.person is None else (version.person,)
+        system = needs_system_fonts(exam.head, people, str([each.problem.data() for each in version.exercises]))
         for path, source in wanted:
             if path is not None:
                 write_bytes_atomically(path, pdf(source(exam, version), accessible=True, system_fonts=system))

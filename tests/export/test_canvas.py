@@ -124,6 +124,12 @@ def test_a_number_is_right_by_our_tolerance() -> None:
     assert (value, low, high) == (10, Decimal("9.95"), Decimal("10.05"))
 
 
+def test_what_is_marked_by_hand_says_so_itself() -> None:
+    """A number beside it is typed as the description of the quiz says."""
+    by_hand = [kind(item) for item in items() if "marked by hand" in shown(item)]
+    assert by_hand == ["essay_question"]
+
+
 def test_what_is_to_choose_has_numbers_for_names_and_a_right_one_in_every_place() -> None:
     for item in items():
         if kind(item) not in ("multiple_dropdowns_question", "multiple_choice_question"):

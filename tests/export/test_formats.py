@@ -24,8 +24,9 @@ from rldrill.exam.exam import Exam, Head, Version
 from rldrill.exam.planning import version_code
 from rldrill.exam.roster import Person
 from rldrill.export.asked import Wrong, answer, cells, typeset
-from rldrill.export.formats import FORMATS, check, export, format_of, named, version_path
+from rldrill.export.formats import FORMATS, check, export, format_of, named, says_what_is_lost, version_path
 from rldrill.export.words import note
+from rldrill.print.words import words
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Number, Part
@@ -248,6 +249,28 @@ def test_an_exam_with_decimal_commas_has_them_wherever_people_read(name: str, tm
         assert "13.8629436112" in text
 
 
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_an_exam_as_json_does_not_name_the_diagrams_that_are_to_be_named(tmp_path: Path, level: int) -> None:
+    asked = rldrill.draw("backup-diagram-name", level, 1)
+    one = Exam(Head(), 1, (Version("A", (asked,), (0,)),))
+    (path,) = export(one, tmp_path / "exam.json", FORMATS["json"], practice=False)
+    (problem,) = json.loads(path.read_text("utf-8"))["versions"][0]["problems"]
+    assert set(problem) == {"format", "family", "level", "question", "parts"}
+    assert all(set(part) == {"part", "ask", "kind", "points", "options"} for part in problem["parts"])
+
+
+@pytest.mark.parametrize("name", ["html", "moodle", "qti", "canvas", "latex", "markdown", "anki"])
+def test_the_answer_to_yes_or_no_is_in_the_language_of_the_exam(tmp_path: Path, name: str) -> None:
+    """π is not optimal: the answer is no. Most formats offer both words to choose from, too."""
+    if name == "anki":
+        pytest.importorskip("genanki")
+    (version,) = german().versions
+    asked = replace(version, exercises=(rldrill.load("policy-improvement/2/1"),), slots=(0,))
+    one = replace(german(), versions=(asked,))
+    (path,) = export(one, tmp_path / f"exam{FORMATS[name].ending}", FORMATS[name], practice=True)
+    assert len(re.findall(r"\bnein\b", _read(path))) == (1 if name in ("anki", "markdown") else 2)
+
+
 def test_numbers_of_json_keep_their_points(tmp_path: Path) -> None:
     (path,) = export(german(), tmp_path / "exam.json", FORMATS["json"], practice=True)
     decimals = json.loads(path.read_text("utf-8"))["versions"][0]["problems"][0]["parts"][0]["answer"]["decimal"]
@@ -431,6 +454,20 @@ def test_what_is_there_is_replaced_only_by_force(tmp_path: Path) -> None:
     check(exam, tmp_path / "none" / "x.tex", FORMATS["latex"], force=True)  # the folder is made
 
 
+def test_it_is_said_where_a_program_gives_points_that_the_exam_does_not() -> None:
+    """Problems have tables and vectors; of single numbers nothing is lost."""
+    entries = replace(exam(), partial="entries")
+    (version,) = entries.versions
+    numbers = replace(exam(), versions=(Version("A", (rldrill.load("optimal-value/3/5"),), (0,)),))
+    ruled = replace(entries, versions=(replace(version, partial=({"a": "all"}, *[{}] * 4)),))
+    for name, program in (("moodle", "Moodle"), ("canvas", "Canvas")):
+        lost = f'{program} marks box by box: parts with partial = "all" earn a share there for what is right in them'
+        assert says_what_is_lost(exam(), FORMATS[name]) == says_what_is_lost(ruled, FORMATS[name]) == lost
+        assert says_what_is_lost(entries, FORMATS[name]) == ""
+        assert says_what_is_lost(numbers, FORMATS[name]) == ""
+    assert says_what_is_lost(exam(), FORMATS["qti"]) == ""
+
+
 def test_what_is_only_chosen_is_told_nothing_of_decimals() -> None:
     chosen, typed = (rldrill.load(name) for name in ("backup-diagram-name/2/13", "td-zero/1/1"))
     asked = [[cell for part in each.parts for cell in cells(each, part)] for each in (chosen, typed)]
@@ -442,7 +479,7 @@ def test_what_is_only_chosen_is_told_nothing_of_decimals() -> None:
 
 def test_the_right_choice_is_told_in_words_and_a_wrong_number_as_it_is_written_by_hand() -> None:
     chosen = rldrill.load("backup-diagram-name/2/13")
-    assert answer(chosen, chosen.parts[0]) == Paragraph("(B) the Monte Carlo method for state values")
+    assert answer(chosen, chosen.parts[0], words("en")) == Paragraph("(B) the Monte Carlo method for state values")
     part = Part("?", Number(), label="a")
     wrong = Wrong(("-1/8",), fmpq(-1, 8), "", None)
     assert [latex(line) for line in typeset(part, wrong)] == [r"- \frac{1}{8} = - 0.125"]

@@ -1,6 +1,7 @@
 """The page judges in the browser as rldrill does; its script is run here by the browser's own engine."""
 
 import json
+import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
@@ -14,15 +15,21 @@ import rldrill
 from number_spellings import spellings
 from rldrill.export.html import task
 from rldrill.export.page import beside
+from rldrill.export.words import page_words
+from rldrill.problems.catalogue import family
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.answers.rule import is_right
+from rldrill.solutions.answers.rule import is_close, is_right
 from rldrill.solutions.answers.text import Unreadable, read_number
 
 READ = """
 var said = (text) => {
   try { const value = Judge.read(text).value(0.5); return Array.isArray(value) ? value.join("/") : String(value); }
   catch (error) { if (!(error instanceof Judge.Unreadable)) throw error; return "unreadable"; }
+};
+var unread = (key, letters) => {
+  try { Judge.right(Judge.read("1.5"), key, letters); return ""; }
+  catch (error) { if (!(error instanceof Judge.Unreadable)) throw error; return error.message; }
 };
 """
 #: One problem for every form of answer: whole numbers, e, roots, logarithms, open parameters, words.
@@ -72,15 +79,16 @@ def test_the_page_reads_no_number_as_another_one() -> None:
 @pytest.mark.parametrize(
     ("text", "value"), [("3/4", "3/4"), ("−0.75", "-3/4"), ("1 1/2", "3/2"), ("2½", "5/2"), ("75 %", "3/4"),
                         ("V(s) = 1/4 = 0.25", "1/4"), ("2·3 + 1", "7"), (r"\frac{3}{4}", "3/4"), ("1e-2", "1/100"),
-                        ("2³", "8"), ("√9", "3"), ("-2^2", "-4"), ("(1+2)(3)", "9"), ("6/2*3", "9")],
+                        ("2³", "8"), ("10·5", "50"), ("√9", "3"), ("-2^2", "-4"), ("(1+2)(3)", "9"), ("6/2*3", "9")],
 )  # fmt: skip
 def test_the_page_reads_what_people_type(text: str, value: str) -> None:
     assert Fraction(engine()(f"said({json.dumps(text)})")) == Fraction(value)
 
 
 @pytest.mark.parametrize(
-    "text", ["", "1,5", "1,234", "1/2/3", "2^3^2", "3/2%", "0.(3)", "1/2γ", "x", "1/0", "3 e -2", "alert(1)"]
-)
+    "text", ["", "1,5", "1,234", "1/2/3", "2^3^2", "3/2%", "0.(3)", "1/2γ", "x", "1/0", "3 e -2", "alert(1)",
+             "0·5", "-0⋅5", "V(s) = 0·5", "1 3/2", "3 6/4", "2 4/4"],
+)  # fmt: skip
 def test_the_page_asks_back_where_it_is_not_sure(text: str) -> None:
     assert engine()(f"said({json.dumps(text)})") == "unreadable"
 
@@ -105,6 +113,43 @@ def test_the_page_judges_as_the_library_does(identity: str) -> None:
         for text in (*samples.right[:1], *samples.wrong):
             verdict = judged(asked, typed_cells(exercise, part.label, text))
             assert (verdict["outcome"] == "right") == exercise.check(text, part.label).accepted, (identity, text)
+
+
+@pytest.mark.parametrize("name", rldrill.families())
+def test_the_page_reads_every_answer_that_it_holds(name: str) -> None:
+    """Right and wrong ones: a key that it cannot read is a part that nothing is said of, whatever is typed."""
+    for level in family(name).levels:
+        exercise = rldrill.draw(name, level, 11)
+        for part in exercise.parts:
+            asked = task(exercise, part)
+            known = [
+                [cell["key"] for cell in asked["cells"] if "key" in cell],
+                *(m["cells"] for m in asked["mistakes"]),
+            ]
+            for key in {key for keys in known for key in keys if isinstance(key, str)}:
+                given = ", ".join(map(json.dumps, (key, asked["parameters"])))
+                assert engine()(f"unread({given})") == "", (exercise.id, part.label, key)
+
+
+@pytest.mark.parametrize(
+    ("typed", "outcome", "says"),
+    [("-5*cos(1)", "right", "Right."), ("-2.70", "right", "Right."), ("-2.69", "close", "Right idea"),
+     ("5cos(1)", "misconception", "The sign."), ("sin(1)^2", "misconception", "A sine."), ("7", "wrong", "Not right.")],
+)  # fmt: skip
+def test_a_wrong_answer_that_has_no_value_keeps_no_other_from_being_told(typed: str, outcome: str, says: str) -> None:
+    """−5·cos 1 = −2.7015…"""
+    known = {"1/0": "None.", "whatever(2)": "None.", "5*cos(1)": "The sign.", "sin(1)^2": "A sine."}
+    mistakes = [{"cells": [cell], "says": said} for cell, said in known.items()]
+    one = {"parameters": [], "cells": [{"name": "", "key": "-5*cos(1)"}], "mistakes": mistakes}
+    verdict = judged(one, [typed])
+    assert (verdict["outcome"], verdict["says"][: len(says)]) == (outcome, says)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("log(2)^2", 0.480453), ("ln(2)²", 0.480453), ("sin(1)", 0.841471), ("tan(4)", 1.157821)]
+)
+def test_the_page_reads_functions_as_rldrill_writes_them(text: str, value: float) -> None:
+    assert float(engine()(f"said({json.dumps(text)})")) == pytest.approx(value, abs=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -164,6 +209,74 @@ def test_of_an_expression_each_number_is_right_to_three_digits(
     assert is_right(reading.value, read_number(key, letters).value, rounded=reading.decimal) == (outcome == "right")
 
 
+@pytest.mark.parametrize(
+    ("key", "letters", "typed", "outcome"),
+    [
+        # √3/2 = 0.8660…, e^(−1/8) = 0.8824…, ln 2 + 3/4 = 1.4431…: the first is the answer, the other it rounded
+        ("sqrt(3)/2", [], "sqrt(3)/2 ≈ 0.87", "right"), ("sqrt(3)/2", [], "√3/2 = 0.866", "right"),
+        ("exp(-1/8)", [], "e^(-1/8) = 0.88", "right"), ("log(2) + 3/4", [], "log(2) + 3/4 ≈ 1.4", "right"),
+        ("1/3", [], "1/3 ≈ 0.33", "right"), ("log(2)", ["x"], "log(2) ≈ 0.69", "right"),
+        ("1/4", [], "1/4 = 25 %", "right"), ("1/200", [], "1/200 = 5e-3", "right"),
+        ("pi", [], "π ≈ 3", "right"), ("2*gamma + 3", ["gamma"], "γ+1 = 2γ+3", "unreadable"),
+        ("2/3", [], "2/3 = 0.66", "unreadable"), ("sqrt(3)/2", [], "0.87 = sqrt(3)/2", "unreadable"),
+        ("log(2)", [], "ln 2 ≈ 0.69", "unreadable"),  # brackets are asked for
+        # A name, also where it could be a number
+        ("3", [], "V(s) = 3", "right"), ("3", [], "e = 3", "right"), ("3", ["p"], "p = 3", "right"),
+        ("3", ["p", "x"], "P(x) = 3", "right"), ("E", [], "e = 2.718", "right"),
+        ("exp(2)", [], "x = exp(2) = 7.389", "right"),
+    ],
+)  # fmt: skip
+def test_a_number_may_stand_in_several_forms_and_a_name_before_it(
+    key: str, letters: list[str], typed: str, outcome: str
+) -> None:
+    one = {"parameters": letters, "cells": [{"name": "", "key": key}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+
+
+@pytest.mark.parametrize(
+    ("typed", "outcome"),
+    [
+        ("0.8 + 0.8e", "unreadable"),
+        ("0.8*(E+1)", "unreadable"),
+        ("0.8 + 0.8ε", "right"),
+        ("8e-1*(epsilon + 1)", "right"),
+    ],
+)
+def test_an_e_is_asked_back_where_it_may_be_epsilon(typed: str, outcome: str) -> None:
+    one = {"parameters": ["epsilon"], "cells": [{"name": "", "key": "4*(epsilon + 1)/5"}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+
+
+@pytest.mark.parametrize(
+    ("letters", "typed", "outcome"),
+    [
+        ([], "-pi (-3.14)", "unreadable"), ([], "log(2) + 2 (2.69)", "unreadable"), ([], "ln(6) (1.79)", "unreadable"),
+        ([], "8 (8)", "unreadable"), ([], "29/4 (7.25)", "unreadable"), ([], "x = 8 (8.0)", "unreadable"),
+        ([], "0.707 (√2/2)", "unreadable"), ([], "√2/2 (sqrt(2)/2)", "unreadable"),
+        # A factor for sure
+        ([], "2(4)", "right"), ([], "(4) * (2)", "right"), ([], "2 (sqrt(9) + 1)", "right"), ([], "9 - (1)", "right"),
+        (["gamma"], "8 (γ + 1)/(1 + γ)", "right"), (["gamma"], "8(γ + 1) (1/(1 + γ))", "right"),
+    ],
+)  # fmt: skip
+def test_a_number_in_brackets_behind_a_number_is_asked_back(letters: list[str], typed: str, outcome: str) -> None:
+    one = {"parameters": letters, "cells": [{"name": "", "key": "8"}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+
+
+@pytest.mark.parametrize(
+    ("key", "typed", "outcome"),
+    [("1/6", "0.17", "close"), ("1/6", "0.171", "wrong"), ("5/7", "0.7", "close"), ("10/7", "1.4", "close"),
+     ("-1/2", "-0.51", "close"), ("-1/2", "-0.511", "wrong"), ("-1/2", "0.51", "wrong"), ("0", "0.001", "wrong"),
+     ("50", "49", "close"), ("50", "48", "wrong"), ("50", "2401/49", "close"), ("pi", "3.08", "close"),
+     ("pi", "3.07", "wrong")],
+)  # fmt: skip
+def test_what_lies_two_percent_off_is_close_the_bound_included(key: str, typed: str, outcome: str) -> None:
+    """Of 1/6, 2 % are 1/300, and 0.17 − 1/6 is just that; 2 % off π is 3.0788."""
+    one = {"parameters": [], "cells": [{"name": "", "key": key}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+    assert is_close(read_number(typed).value, read_number(key).value) == (outcome == "close")
+
+
 @pytest.mark.parametrize("typed", ["10^400", "-10^350", "γ*10^320"])
 def test_what_is_too_large_is_not_right(typed: str) -> None:
     one = {"parameters": ["gamma"], "cells": [{"name": "", "key": "(2 - 4*gamma)/(1 - gamma^2)"}], "mistakes": []}
@@ -182,3 +295,16 @@ def test_what_is_unreadable_is_named_by_its_box() -> None:
     verdict = judged(task(exercise, exercise.parts[0]), ["1", "one", "2"])
     assert verdict["outcome"] == "unreadable"
     assert verdict["says"].startswith("entry 2: ")
+
+
+def test_the_page_says_in_german_what_it_cannot_read() -> None:
+    script, german = beside("judge.js"), page_words("de").verdicts
+    english = set(re.findall(r'refuse\("([^"]+)"', script))
+    assert len(re.findall(r"refuse\(", script)) == len(re.findall(r'refuse\("[^"]+"', script))
+    assert english == {sentence for sentence in german if " " in sentence}
+    assert all(sentence.count("{}") == german[sentence].count("{}") for sentence in english)
+    one = {"parameters": ["gamma"], "cells": [{"name": "", "key": "gamma"}], "mistakes": []}
+    told = {**german, "comma": True}
+    assert judged(one, ["1.234"], told)["says"].startswith("„1.234“ kann mehrere Zahlen bedeuten")
+    assert judged(one, ["2 $& x"], told)["says"] == "„$& x“ wird nicht verstanden; schreiben Sie eine Zahl wie 3/4."
+    assert judged(one, ["2y"])["says"] == "“y” is not something this answer may contain; write numbers and gamma."

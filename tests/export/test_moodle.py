@@ -23,6 +23,7 @@ import pytest
 
 import rldrill
 from rldrill.exam.exam import Exam, Head, Version
+from rldrill.exercise import Exercise
 from rldrill.export.asked import cells
 from rldrill.export.moodle import _escaped, moodle_exam
 
@@ -169,6 +170,17 @@ def test_points_are_shared_as_those_of_the_parts() -> None:
     weights = [weight for weight, _, _ in boxes(question.findtext("questiontext/text") or "")]
     first, second = rldrill.load("td-zero/2/234").parts
     assert Fraction(sum(weights[:3]), sum(weights)) == Fraction(first.points, first.points + second.points)
+
+
+def test_a_part_that_shall_not_count_weighs_nothing() -> None:
+    """Three boxes share 2 points, so all is counted threefold; Moodle takes a weight of 0 for what it is."""
+    asked, open_ = (rldrill.load(name) for name in ("td-zero/2/234", "policy-value/3/1"))
+    exercises = (Exercise(asked.solution, worth={"a": 2, "b": 0}), Exercise(open_.solution, worth={"a": 0}))
+    exam = Exam(Head(title="Points"), 1, (Version("A", exercises, (0, 1)),))
+    cloze, essay = ElementTree.fromstring(moodle_exam(exam, practice=False))[1:]
+    weights = [weight for weight, _, _ in boxes(cloze.findtext("questiontext/text") or "")]
+    assert weights == [2, 2, 2, 0, 0]
+    assert essay.findtext("defaultgrade") == "0"
 
 
 def test_problems_weigh_what_they_are_worth_in_the_exam() -> None:
