@@ -43,7 +43,7 @@ def solve(given: Any, work: Work) -> None:
         return
     known["gamma"] = exact(given.gamma)
     if given.known is not None:
-        find(given, work, work.step(RETURN, t=0, **known))
+        find(given, work, work.step(RETURN, t=0, **known), "R_0")
         return
     last = end - 1 if given.time is None else given.time
     G = {last: work.step(RETURN, t=last, **known)}
@@ -101,7 +101,7 @@ def _step_by_step(given: Any, work: Work, known: dict[str, Any]) -> None:
         if time == given.time and given.known is None:
             G[time] = work.answer(G[time])
     if given.known is not None:
-        find(given, work, G[0])
+        find(given, work, G[0], "R_0")
     elif given.time is None:
         work.answer(tuple(G[time] for time in range(known["T"])))
     elif given.time:

@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from rldrill.problems.document import Equation
-from rldrill.problems.exact import Logarithm
+from rldrill.problems.exact import Logarithm, shown
 from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
@@ -83,6 +83,7 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
     pair = odds.action, odds.other
     bound = {**known, "H": {("s", action): work.step(PREFERENCE, a=action, **known) for action in pair}}
     quotient = work.step(SOFTMAX_ODDS, a=odds.action, a1=odds.other, **bound)
+    work.say(f"This quotient must be ${shown(odds.times)}$:")
     x = work.answer(work.equate("x", rational_function(to_sympy(quotient)), exact(odds.times)))
     theta = [
         sympy.expand_log(to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)), factor=True)

@@ -44,7 +44,7 @@ def _averaged(given: Given, work: Work) -> None:
     if given.known is None:
         work.answer({state: values[state] for state in given.visited})
     else:
-        find(given, work, values[given.visited[0]])
+        find(given, work, values[given.visited[0]], f'V("{given.visited[0]}")')
 
 
 def _weighted(given: Given, work: Work) -> None:
@@ -52,7 +52,8 @@ def _weighted(given: Given, work: Work) -> None:
     if given.known is not None and len(given.visits) == 1:
         ((state, observed),) = given.visits
         known = {"s": state, "observed": exact(observed), "V": knowns.values(given.values)}
-        find(given, work, work.step(of_a_visit(MONTE_CARLO), alpha=exact(given.alpha), **known))
+        moved = work.step(of_a_visit(MONTE_CARLO), alpha=exact(given.alpha), **known)
+        find(given, work, moved, f'V("{state}")')
         return
     count, alpha = len(given.visits), exact(given.alpha)
     weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
@@ -66,7 +67,7 @@ def _weighted(given: Given, work: Work) -> None:
     if given.known is None:
         work.answer(value)
     else:
-        find(given, work, value)
+        find(given, work, value, f'V("{given.visited[0]}")')
 
 
 @slip(
