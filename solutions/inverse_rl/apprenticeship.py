@@ -67,7 +67,10 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         stops = sign(limit - left) >= 0
         relation = "≤" if stops else ">"
         compared = f"{relation} {shown(given.tolerance)}$: {'yes, it stops' if stops else 'no, it goes on'}."
-        work.say("The method stops where the policies that it has found, mixed, come close enough to its aim:")
+        work.say(
+            f"The method stops when $‖w‖ ≤ {shown(given.tolerance)}$: the policies that it has found, mixed, then come "
+            "close enough to its aim:"
+        )
         work.recall(APPRENTICESHIP)
         work.say(lambda: f"$‖w‖ {near(left, 3)} {compared}")
         work.answer(stops)
