@@ -132,8 +132,9 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
         return
     _most_probable(
         work,
-        "Likelihood times prior is proportional to $exp(−∑_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
-        "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent with respect to $θ_1$, "
+        "Likelihood times prior is proportional to $exp(−∑_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. For "
+        "every $θ_1$ the best $θ_0$ is $ȳ − θ_1 x̄$, since its prior is flat. With it this is greatest where the "
+        "derivative of the exponent with respect to $θ_1$, "
         "$(S_{x y} − θ_1 S_{x x})/σ^2 − θ_1/σ_0^2$, is $0$, so where $S_{x y} − θ_1 S_{x x} = θ_1 σ^2/σ_0^2$:",
     )
     slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)
