@@ -29,7 +29,7 @@ from rldrill.solutions.sheet.policy_gradient import (
     WITHOUT_EXP,
 )
 from rldrill.solutions.sheet.policy_gradient import theta as theta_of
-from rldrill.solutions.softmax import action_features, by_number, chances
+from rldrill.solutions.softmax import action_features, by_number, chances, tell_exponentials
 from rldrill.solutions.work import Equality, Step, Work
 
 
@@ -43,6 +43,7 @@ def solve(given: Given, work: Work) -> None:
         return
     preferences = work.answer({action: work.step(PREFERENCE, a=action, **known) for action in actions})
     known["H"] = {("s", action): preferences[action] for action in actions}
+    tell_exponentials(work, preferences.values())
     found = work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
     if given.entropy:
         known["pi"] = {(action, "s"): found[action] for action in actions}
