@@ -53,7 +53,8 @@ def solve(given: Given, work: Work) -> None:
     work.recall(MAML_GRADIENT)
     work.say("With these factors one step of gradient descent, $θ ← θ − β dJ/dθ$, is")
     after = work.step(MAML_OUTER, **known)
-    if parameters(known["alpha"]) and work.lines and isinstance(last := work.lines[-1], Step):
+    several = parameters(known["alpha"]) and len(tasks) > 1
+    if several and work.lines and isinstance(last := work.lines[-1], Step):
         work.lines[-1] = _MultipliedOut(*last)
     if given.after is not None:
         work.say(f"After the step $θ$ is ${shown(given.after)}$:")
