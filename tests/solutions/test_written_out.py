@@ -180,3 +180,23 @@ def test_one_planned_update_has_no_number_and_the_model_learns_after_the_real_on
     assert "Planned update, of the pair (warm, slow);" in text
     text = " ".join(written("dyna-q", given | {"planned": [["warm", "slow"], ["cool", "fast"]]}))
     assert "Planned update 2, of the pair (cool, fast);" in text
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        ({"x": 5, "y": 4}, "in b, x has the greater value, 5"),
+        ({"x": 5, "y": 4, "z": 1}, "in b, x has the greatest value, 5"),
+        ({"x": 5, "y": 5}, "in b, x and y have the same value, 5"),
+        ({"x": 5, "y": 5, "z": 1}, "in b, x and y have the same greatest value, 5"),
+    ],
+)
+def test_of_two_values_that_are_equal_none_is_the_greater(row: dict[str, int], said: str) -> None:
+    given = {
+        "trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
+        "values": {"a": dict.fromkeys(row, 0), "b": row}, "alpha": "1/2", "gamma": "1/2",
+        "model": [["a", "y", 2, "b"]], "planned": [["a", "y"]],
+    }  # fmt: skip
+    text = " ".join(written("dyna-q", given))
+    assert f"Real update at t = 0, of the pair (a, x); {said}:" in text
+    assert f"next state b, and {said}:" in text
