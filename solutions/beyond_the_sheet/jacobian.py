@@ -57,6 +57,7 @@ def solve(given: Given, work: Work) -> None:
 def _rates(work: Work, J: AnyMatrix, x: Value, y: Value) -> None:
     """The two equations of the velocity, solved with the determinant."""
     work.recall(JOINT_RATES)
+    work.say("The two equations are solved by Cramer's rule, with the determinant of $J$:")
     known: dict[str, Any] = _by_rows(J) | {"vx": x, "vy": y}
     known["detJ"] = work.step(DETERMINANT, **known)
     if is_zero(known["detJ"]):

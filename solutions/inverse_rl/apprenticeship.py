@@ -77,7 +77,10 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
 
 
 def _length(work: Work, known: dict[str, Any]) -> Any:
-    work.say("The projection goes the share $c$ of the way from $μ̄$ to $μ(π)$:")
+    work.say(
+        "The projection goes the share $c$ of the way from $μ̄$ to $μ(π)$, to the point from which the way on to "
+        "$μ(π_E)$ is orthogonal to it:"
+    )
     return work.step(PROJECTION_LENGTH, **known)
 
 
