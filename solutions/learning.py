@@ -39,5 +39,6 @@ def greatest_told(work: Work, known: Mapping[str, Any], state: str) -> str:
     if work.misconception is not None or len(values) == 1 or any(type(value) is not fmpq for value in values.values()):
         return ""
     best = arg_max(tuple(values), tuple(values.values()))
-    has, greatest = "has" if len(best) == 1 else "have", "greater" if len(values) == 2 else "greatest"
-    return f"in {state}, {joined([*best])} {has} the {greatest} value, ${told(values[best[0]])}$"
+    greatest = "" if len(values) == len(best) else " greatest"
+    has = f"have the same{greatest}" if len(best) > 1 else f"has the {'greater' if len(values) == 2 else 'greatest'}"
+    return f"in {state}, {joined([*best])} {has} value, ${told(values[best[0]])}$"

@@ -210,12 +210,19 @@ def _jacobian(work: Work, given: System, formula: Formula, known: dict[str, Valu
     """The derivatives of the dynamics by the state or by the action; those that are zero are not written down."""
     by = given.states if formula is STATE_JACOBIAN else tuple(given.action)
     columns = [_column(work, given, formula, name, known, rule) for name in by]
-    if any(entry == 0 for column in columns for entry in column):
+    if any(entry is None for column in columns for entry in column):
         work.say("The other derivatives are zero.")
-    return matrices.matrix(zip(*columns, strict=True))
+    return matrices.matrix(zip(*(map(written_or_zero, column) for column in columns), strict=True))
 
 
-def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Any], rule: Rule) -> list[Value]:
+def written_or_zero(derivative: Value | None) -> Value:
+    """A derivative; one that is not written down, since nothing depends on the letter, is zero."""
+    return ZERO if derivative is None else derivative
+
+
+def _column(
+    work: Work, given: System, formula: Formula, by: str, known: dict[str, Any], rule: Rule
+) -> list[Value | None]:
     """The derivatives of all components by one letter; those of named parts first, as far as they play a part."""
     needed = _needed(work, given, by, known, rule)
     known = {**known, "j": by}
@@ -230,10 +237,10 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
         work.say(f"So {joined(constant)} {'count as constants' if len(constant) > 1 else 'counts as a constant'} here.")
     moving = tuple(part for part in needed if known[dynamics.part_derivative(part, by).name] != 0)
 
-    def derivative(text: str, index: int) -> Value:
+    def derivative(text: str, index: int) -> Value | None:
         right = rule(text, by, _within(text, moving))
         if right == 0:
-            return ZERO
+            return None
         if len(given.dynamics) == 1:
             return work.step(formula, into=partial_part, right=right, i="f", **known)
         return work.step(formula, into=partial, right=right, i=index, **known)

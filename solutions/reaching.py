@@ -57,11 +57,18 @@ def reached(
     work.say(f'Let $y = {given.sought}("{given.other}")$. The actions in {state} have these values:')
     ahead = {**values, given.other: generator("y")}
     worths = {action: work.step(formula, s=state, a=action, **known, V=ahead) for action in known["actions"][state]}
+    moving = [action for action, worth in worths.items() if parameters(worth)]
+    this = f'${given.name}("{state}") = {told(target)}$'
+    if less := [action for action in worths if action not in moving]:
+        beaten = f"{begun(joined(less))} {'is' if len(less) == 1 else 'are'} worth less than {this}"
+        work.say(f"{beaten}, so {moving[0]} must be worth that:" if len(moving) == 1 else f"{beaten}.")
     ends = {}
-    for action, worth in worths.items():
-        if parameters(worth):
-            work.say(f'If {action} is best in {state}, this is ${given.name}("{state}") = {told(target)}$:')
-            ends[action] = work.equate("y", worth, target)
+    for action in moving:
+        if len(moving) > 1:
+            work.say(f"If {action} is best in {state}, this is {this}:")
+        elif not less:
+            work.say(f"This must be {this}:")
+        ends[action] = work.equate("y", worths[action], target)
     others = [worth for action, worth in worths.items() if action not in ends]
     if ends and max(others, default=None) == target:
         raise NoSolution(
@@ -71,8 +78,6 @@ def reached(
         raise NoSolution(f"with no value of {given.other!r} is the best action in {state!r} worth {target}")
     value = chosen(ends.values())
     (best, *_) = (action for action, end in ends.items() if end == value)
-    if less := [action for action in worths if action not in ends]:
-        work.say(f"{begun(joined(less))} {'is' if len(less) == 1 else 'are'} worth less than ${told(target)}$.")
     more = []
     for end in dict.fromkeys(end for end in ends.values() if end != value):
         work.say(f"With $y = {told(end)}$ {best} is worth:")
@@ -81,7 +86,7 @@ def reached(
     if more:
         too_much = f"{begun(best)} would be worth {joined(more)}, more than ${told(target)}$"
         work.say(f"{too_much}: so $y = {told(value)}$ is right.")
-    else:
+    elif len(moving) > 1:
         work.say(f"So {best} is best in {state}.")
     return value, best
 

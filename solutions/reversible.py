@@ -21,14 +21,21 @@ Run = TypeVar("Run", bound=ValueRun)
 _TRIALS = Fraction(1, 4), Fraction(3, 4)
 
 
-def find(given: Reversible, work: Work, value: Value) -> Value:
+def find(given: Reversible, work: Work, value: Value, named: str) -> Value:
     """Answer with the number for the letter that makes the value, worked out with the letter in it, what is known.
+
+    Args:
+        given: the problem.
+        work: where the steps are written.
+        value: what comes out, an expression in the letter.
+        named: how that is called, as mathematics.
 
     Raises:
         NoSolution: the value does not depend on the letter.
     """
     if not given.letters:
         raise NoSolution("what is known says nothing of the letter that is asked for; change what is left open")
+    work.say(f"${named}$ must be ${shown(needed(given.known))}$:")
     return work.answer(work.equate(given.letter, value, exact(needed(given.known))))
 
 
@@ -68,7 +75,7 @@ def find_and_finish(
     """Answer with the letter, from the value that is known after all updates, and with the other values."""
     first, *others = given.updated
     after = updated(exact)
-    letter = find(given, work, after[first])
+    letter = find(given, work, after[first], f'V("{first}")')
     if others:
         sign = shown(Parameter(given.letter))
         found = {state: value_at(after[state], letter) for state in others}

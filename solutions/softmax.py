@@ -1,17 +1,21 @@
 """Softmax policies as solvers need them: probabilities, scores, returns; and their gradient by other means."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+import sympy
+from sympy import Expr
+
+from rldrill.problems.document import joined
 from rldrill.problems.features import ActionFeatures, FeatureVector
 from rldrill.problems.softmax import SoftmaxRun
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ONE, ZERO, Value, exact, simplest
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, ordered, simplest, to_sympy
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
 from rldrill.solutions.sheet.policy_gradient import PREFERENCE, RETURN_FROM_A_STEP, SCORE_FUNCTION, SOFTMAX_POLICY
 from rldrill.solutions.vector import Vector
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Note, Work
 
 
 def by_number(theta: Sequence[Value]) -> dict[str, Any]:
@@ -33,10 +37,44 @@ def action_features(features: ActionFeatures) -> dict[str, Any]:
     }
 
 
+#: A product of more factors is not written down.
+_LONGEST = 12
+
+
+def tell_exponentials(work: Work, preferences: Iterable[Value]) -> None:
+    """Say what e to the power of a sum of logarithms is, or of a multiple of one, where a preference is such."""
+    found = [told for H in dict.fromkeys(map(to_sympy, preferences)) if (told := _exponential(H))]
+    if found and Note(said := f"Since $exp(ln b) = b$, {joined(found)}.") not in work.lines:
+        work.say(said)
+
+
+def _exponential(H: Expr) -> str:
+    """e to the power of whole multiples of logarithms as a product; nothing for a single logarithm."""
+    terms = [term.as_coeff_Mul() for term in sympy.Add.make_args(ordered(H))]
+    plain = all(isinstance(log, sympy.log) and times.is_Integer and times > 0 for times, log in terms)
+    if not plain or not all(log.args[0].is_Integer or log.args[0].is_Symbol for _, log in terms):
+        return ""
+    if len(terms) == 1 and terms[0][0] == 1:
+        return ""
+    exponent = " + ".join(f"{'' if times == 1 else times} ln {log.args[0]}" for times, log in terms)
+    numbers = [(log.args[0], times) for times, log in terms if log.args[0].is_Integer]
+    letters = "".join(f" {log.args[0]}{_power(times)}" for times, log in terms if log.args[0].is_Symbol)
+    factors = "·".join(f"{base}{_power(times)}" for base, times in numbers)
+    if sum(times for _, times in numbers) > _LONGEST:
+        return ""
+    product = str(sympy.prod(base**times for base, times in numbers)) if numbers else ""
+    return f"$exp({exponent}) = {factors}{letters}{'' if product == factors else f' = {product}{letters}'}$"
+
+
+def _power(times: Expr) -> str:
+    return "" if times == 1 else f"^{times}"
+
+
 def chances(work: Work, known: Mapping[str, Any], state: str, actions: Sequence[str]) -> dict[tuple[str, str], Value]:
     """Work out the probability of every action in a state, from the preferences."""
     bound = {**known, "s": state, "choices": tuple(actions)}
     bound["H"] = {(state, action): work.step(PREFERENCE, a=action, **bound) for action in actions}
+    tell_exponentials(work, bound["H"].values())
     return {(action, state): simplest(work.step(SOFTMAX_POLICY, a=action, **bound)) for action in actions}
 
 

@@ -256,8 +256,10 @@ def question(given: Given) -> Question:
     if given.fitted is not None and given.border:
         border = Part("For which number $n$ of data points do both models have the same BIC?", Number())
         options = dict(zip(ascii_uppercase, names, strict=False))
-        ask = f"Which model does the BIC prefer if there are {given.border} data points than that?"
-        after = Part(ask, Choice(options))
+        data = f"{given.border} data points than that"
+        after = Part(
+            f"Which model does the BIC prefer if, with the same likelihoods, there are {data}?", Choice(options)
+        )
         return Question((*_fitted(given, given.fitted), rule), (border, after))
     if given.fitted is not None:
         return Question((*_fitted(given, given.fitted), rule), (criteria, _winner(given)))

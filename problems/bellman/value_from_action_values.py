@@ -121,7 +121,6 @@ _LARGEST = 20
 def question(given: Given) -> Question:
     """The action values and the policy; the values under it, and the optimal ones unless something is left open."""
     states = tuple(given.values)
-    every = f"for {states[0]}" if len(states) == 1 else "for every state"
     blocks: list[Block] = [
         Paragraph("An agent has a table of action values:"),
         action_values_table(given.values),
@@ -130,16 +129,17 @@ def question(given: Given) -> Question:
     ]
     if given.finds:
         return _found(given, blocks)
-    parts = [
-        Part(
-            f"The table holds $Q^π$, the action values of this policy. What is $V^π(s)$ {every}{in_open(given)}?",
-            Values("V^π", states),
-        )
-    ]
+    ask = f"What is {_every('V^π', states)}{in_open(given)}?"
+    parts = [Part(f"The table holds $Q^π$, the action values of this policy. {ask}", Values("V^π", states))]
     if not given.parameters():
-        ask = f"Suppose instead that the table holds $Q^*$, the optimal action values. What is $V^*(s)$ {every}?"
+        ask = f"Suppose instead that the table holds $Q^*$, the optimal action values. What is {_every('V^*', states)}?"
         parts.append(Part(ask, Values("V^*", states)))
     return Question(tuple(blocks), tuple(parts))
+
+
+def _every(head: str, states: tuple[str, ...]) -> str:
+    """The values of all states, to be asked for; that of one by its name."""
+    return f'${head}("{states[0]}")$' if len(states) == 1 else f"${head}(s)$ for every state"
 
 
 def _found(given: Given, blocks: list[Block]) -> Question:

@@ -18,7 +18,7 @@ from rldrill.problems.valued import UNITS, tells_apart
 
 TITLE = "Optimal policy given Q"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 5
+REVISION = 6
 
 
 class Given(AskedFor):
@@ -112,11 +112,16 @@ def draw(level: int, rng: Draws) -> Given:
     rows: list[Transition] = []
     for gap in gaps:
         targets = tuple(place for place in setting.reached(places, *gap) if place not in holed)
+        weighed = level == 3 and gap == gaps[-1]
+        if weighed and targets == (setting.terminal,):
+            return draw(level, rng)
         shape = Shape(states=0, actions=0, branches=2, reward=8, denominators=(2, 4))
         found = draw_outcomes(rng, *gap, targets[:2], shape)
         rival = max(values[gap[0]][action] for action in setting.actions if (gap[0], action) not in gaps)
-        while not tells_apart(found, worth, gamma) or any(
-            Fraction(row.reward) + gamma * worth.get(row.next, Fraction(0)) == rival for row in found
+        while (
+            not tells_apart(found, worth, gamma)
+            or any(Fraction(row.reward) + gamma * worth.get(row.next, Fraction(0)) == rival for row in found)
+            or (weighed and [row.next for row in found] == [setting.terminal])  # the threshold would be read off
         ):
             found = draw_outcomes(rng, *gap, targets[:2], shape)
         rows += found

@@ -19,7 +19,7 @@ from rldrill.problems.softmax import draw_log_policy
 
 TITLE = "Softmax policy"
 SOURCE = "Sutton & Barto 2018, section 13.1"
-REVISION = 5
+REVISION = 6
 
 
 class Odds(NamedTuple):
@@ -94,8 +94,12 @@ def _sum(theta: tuple[Weight, ...], row: FeatureVector) -> float:
 
 
 def _open(rng: Draws, actions: tuple[str, ...]) -> Given:
-    theta, rows = draw_log_policy(rng, ("s",), actions[:3], rng.choice((2, 3)))
-    return Given(theta=(*theta[:-1], Logarithm("ln x")), features=rows["s"])
+    """No two actions with the same preference, whatever x is."""
+    while True:
+        theta, rows = draw_log_policy(rng, ("s",), actions[:3], rng.choice((2, 3)))
+        features = rows["s"]
+        if len({(_sum(theta[:-1], row[:-1]), row[-1]) for row in features.values()}) == len(features):
+            return Given(theta=(*theta[:-1], Logarithm("ln x")), features=features)
 
 
 def _odds(rng: Draws, actions: tuple[str, ...]) -> Given:
@@ -110,12 +114,19 @@ def _odds(rng: Draws, actions: tuple[str, ...]) -> Given:
     if not pairs:
         return _odds(rng, actions)
     action, other = rng.choice(pairs)
-    lead = [x - y for x, y in zip(features[action], features[other], strict=True)]
     x = rng.fraction("2", "3", "4", "5", "3/2", "5/2", "1/2", "2/3")
     bases = (*(fraction_of(str(weight).removeprefix("ln ")) for weight in theta[:-1]), x)
-    times = prod((base ** int(more) for base, more in zip(bases, lead, strict=True)), start=Fraction(1))
+    weights = {name: _exponential(bases, row) for name, row in features.items()}
+    if len(set(weights.values())) < count:
+        return _odds(rng, actions)
+    times = weights[action] / weights[other]
     odds = Odds(action, other, times) if times >= 1 else Odds(other, action, 1 / times)
     return Given(theta=(*theta[:-1], Logarithm("ln x")), features=features, odds=odds)
+
+
+def _exponential(bases: tuple[Fraction, ...], row: FeatureVector) -> Fraction:
+    """What e to the power of a preference is, for weights that are the logarithms of these numbers."""
+    return prod((base ** int(more) for base, more in zip(bases, row, strict=True)), start=Fraction(1))
 
 
 def _entropy(rng: Draws, actions: tuple[str, ...]) -> Given:

@@ -32,7 +32,7 @@ def _answer(given: Given, work: Work, value: Value) -> None:
     if given.known is None:
         work.answer(value)
     else:
-        find(given, work, value)
+        find(given, work, value, given.asked)
 
 
 def _known(given: Given) -> dict[str, Any]:

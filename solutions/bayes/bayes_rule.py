@@ -3,6 +3,7 @@
 from typing import Any
 
 from rldrill.problems.bayes.bayes_rule import Given
+from rldrill.problems.exact import shown
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import ONE, Value, exact, told
@@ -39,6 +40,7 @@ def solve(given: Given, work: Work) -> None:
         state, letter = given.outcome.state, given.left_open[0]
         known: dict[str, Any] = {"z": given.measurements[0], "hypotheses": hypotheses, "label": labels[1]}
         after = work.step(BAYES, h=state, p=belief, likelihood=likelihood, **known)
+        work.say(f"This must be ${shown(given.outcome.probability)}$:")
         found = work.answer(work.equate(letter, after, exact(given.outcome.probability), share=True))
         belief, likelihood = knowns.settled(belief, found), knowns.settled(likelihood, found)
         if len(readings) > 1:

@@ -184,7 +184,10 @@ def _border(given: Given, work: Work, better: int) -> None:
     work.lines.append(Equality(count, (n,)))
     work.answer(n)
     cost, preferred = ("more", simple) if given.border == "more" else ("less", rich)
-    work.say(f"With {given.border} data every parameter costs {cost}, so that the BIC prefers {preferred}.")
+    work.say(
+        f"With {given.border} data and the same likelihoods every parameter costs {cost}, so that the BIC prefers "
+        f"{preferred}."
+    )
     chosen = preferred if better < 0 else (rich if preferred == simple else simple)
     work.answer(ascii_uppercase[given.names.index(chosen)])
 

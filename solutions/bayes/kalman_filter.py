@@ -6,7 +6,7 @@ from typing import Any
 from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
-from rldrill.solutions.exact import Value, exact, to_sympy
+from rldrill.solutions.exact import Value, exact, to_sympy, told
 from rldrill.solutions.found import put_in_found
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.matrices import identity, matrix
@@ -74,6 +74,7 @@ def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) ->
     known["covariance_bar"] = {1: work.step(KALMAN_MOVE_COVARIANCE, **known)}
     known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
     after = work.step(KALMAN_COVARIANCE, **known)[0, 0]
+    work.say(f"This must be ${told(variance)}$:")
     found = work.answer(work.equate("w", after, variance, positive=True))
     known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
     work.say(f"With $w = {to_sympy(found)}$ the gain is:")

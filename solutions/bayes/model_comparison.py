@@ -6,6 +6,7 @@ import sympy
 from msgspec.structs import replace
 
 from rldrill.problems.bayes.model_comparison import CoinModel, Given
+from rldrill.problems.exact import shown
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, sign
 from rldrill.solutions.formula.nodes.leaves import leaf
@@ -42,6 +43,7 @@ def solve(given: Given, work: Work) -> None:
     if len(names) == 2:
         odds = work.step(POSTERIOR_ODDS, first_model=names[0], second_model=names[1], **known)
         if given.odds is not None:
+            work.say(f"These odds must be ${shown(given.odds)}$:")
             work.answer(work.equate(given.left_open[0], odds, exact(given.odds)))
             return
         odds = work.answer(odds)

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
+from rldrill.problems.exact import shown
 from rldrill.solutions.exact import exact, told
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import Array, np
@@ -109,7 +110,10 @@ def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
     )
     noise, mean, variance = exact(prior.noise), exact(prior.mean), exact(prior.variance)
     peak = work.step(with_prior, sigma2=noise, prior_mean=mean, prior_variance=variance, **known)
-    work.answer(peak if prior.estimate is None else work.equate("w", peak, exact(prior.estimate), positive=True))
+    if prior.estimate is not None:
+        work.say(f"This estimate must be ${shown(prior.estimate)}$:")
+        peak = work.equate("w", peak, exact(prior.estimate), positive=True)
+    work.answer(peak)
 
 
 def _line(line: Line, work: Work, with_prior: Formula) -> None:
@@ -128,12 +132,14 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
         return
     _most_probable(
         work,
-        "Likelihood times prior is proportional to $exp(−∑_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
-        "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent with respect to $θ_1$, "
+        "Likelihood times prior is proportional to $exp(−∑_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. For "
+        "every $θ_1$ the best $θ_0$ is $ȳ − θ_1 x̄$, since its prior is flat. With it this is greatest where the "
+        "derivative of the exponent with respect to $θ_1$, "
         "$(S_{x y} − θ_1 S_{x x})/σ^2 − θ_1/σ_0^2$, is $0$, so where $S_{x y} − θ_1 S_{x x} = θ_1 σ^2/σ_0^2$:",
     )
     slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)
     if prior.estimate is not None:
+        work.say(f"This estimate must be ${shown(prior.estimate)}$:")
         work.answer(work.equate("w", slope, exact(prior.estimate), positive=True))
     else:
         work.answer((slope, work.step(line_intercept_map(), slope_map=slope, **known)))

@@ -3,6 +3,7 @@
 from typing import Any
 
 from rldrill.problems.beyond_the_sheet.forward_kinematics import Given
+from rldrill.problems.exact import shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import arms
 from rldrill.solutions.dynamics import angle, radians
@@ -21,7 +22,9 @@ def solve(given: Given, work: Work) -> None:
     arm = arms.known(given)
     if given.x is not None:
         arm["phi"] = arms.link_angles(work, arm)
-        length = work.answer(work.equate("w", work.step(FORWARD_X, **arm), exact(given.x), positive=True))
+        reach = work.step(FORWARD_X, **arm)
+        work.say(f"$x$ must be ${shown(given.x)}$:")
+        length = work.answer(work.equate("w", reach, exact(given.x), positive=True))
         arm["length"] = settled(arm["length"], length)
         work.answer(work.step(FORWARD_Y, **arm))
         return

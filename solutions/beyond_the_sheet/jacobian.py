@@ -23,9 +23,16 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
+#: Why the determinant of three links is that of the first two.
+_REDUCED = (
+    "Subtracting column $2$ from column $1$, and column $3$ from column $2$, does not change $det J$. Column $1$ is "
+    "then the vector of link $1$ turned by $90°$, and column $2$ that of link $2$, both with $0$ below, so by the last "
+    "row $det J$ is the determinant of these two vectors; the angle from the one to the other is $θ_2$:"
+)
+
 
 def solve(given: Given, work: Work) -> None:
-    """The determinant does not depend on how the base is turned."""
+    """The Jacobian, then the velocity or the rates; whether it is singular."""
     arm = arms.known(given)
     arm["phi"] = arms.link_angles(work, arm)
     joints = tuple(arm["length"])
@@ -39,8 +46,9 @@ def solve(given: Given, work: Work) -> None:
         return
     _velocity(given, work, J)
     if given.square:
-        work.say(_reduced(given))
-        det = work.step(SINGULAR, **arm)
+        if given.orientation:
+            work.say(_REDUCED)
+        det = work.step(SINGULAR, **arm) if given.orientation else work.step(DETERMINANT, **_by_rows(J))
         singular = is_zero(det)
         work.say(f"$det J {'=' if singular else '≠'} 0$: the configuration is {'' if singular else 'not '}singular.")
         work.answer(singular)
@@ -49,27 +57,18 @@ def solve(given: Given, work: Work) -> None:
 def _rates(work: Work, J: AnyMatrix, x: Value, y: Value) -> None:
     """The two equations of the velocity, solved with the determinant."""
     work.recall(JOINT_RATES)
-    along_x, along_y = (dict(enumerate(row, 1)) for row in J.tolist())
-    known: dict[str, Any] = {"Jx": along_x, "Jy": along_y, "vx": x, "vy": y}
+    work.say("The two equations are solved by Cramer's rule, with the determinant of $J$:")
+    known: dict[str, Any] = _by_rows(J) | {"vx": x, "vy": y}
     known["detJ"] = work.step(DETERMINANT, **known)
     if is_zero(known["detJ"]):
         raise NoSolution("the configuration is singular, so that no or many angular velocities do this")
     work.answer((work.step(FIRST_RATE, **known), work.step(SECOND_RATE, **known)))
 
 
-def _reduced(given: Given) -> str:
-    """Why the determinant is that of the first two links."""
-    turned = "is then the vector of link $1$ turned by $90°$, and column $2$ that of link $2$"
-    if given.orientation:
-        return (
-            "Subtracting column $2$ from column $1$, and column $3$ from column $2$, does not change $det J$. Column "
-            f"$1$ {turned}, both with $0$ below, so by the last row $det J$ is the determinant of these two vectors; "
-            "the angle from the one to the other is $θ_2$:"
-        )
-    return (
-        f"Subtracting column $2$ from column $1$ does not change $det J$. Column $1$ {turned}; the angle from the one "
-        "to the other is $θ_2$:"
-    )
+def _by_rows(J: AnyMatrix) -> dict[str, Any]:
+    """The entries of a Jacobian with two rows, by the joint."""
+    along_x, along_y = (dict(enumerate(row, 1)) for row in J.tolist())
+    return {"Jx": along_x, "Jy": along_y}
 
 
 def _velocity(given: Given, work: Work, J: AnyMatrix) -> None:

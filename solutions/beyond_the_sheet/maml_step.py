@@ -2,9 +2,16 @@
 
 from typing import Any
 
+import sympy
+from sympy import Expr
+
 from rldrill.problems.beyond_the_sheet.maml_step import Given
+from rldrill.problems.document import Equation
 from rldrill.problems.exact import needed, shown
-from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.exact import ONE, ZERO, exact, parameters
+from rldrill.solutions.formula.nodes.leaves import leaf
+from rldrill.solutions.formula.typesetting import typeset
+from rldrill.solutions.multiplied_out import term_by_term
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
@@ -19,7 +26,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     MAML_OUTER,
     NOT_ADAPTED,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Step, Work
 
 MISCONCEPTIONS = (FIRST_ORDER, NOT_ADAPTED, FROM_ADAPTED.where_it_shows(), HALF_KEPT.where_it_shows())
 
@@ -47,12 +54,37 @@ def solve(given: Given, work: Work) -> None:
     work.recall(MAML_GRADIENT)
     work.say("With these factors one step of gradient descent, $θ ← θ − β dJ/dθ$, is")
     after = work.step(MAML_OUTER, **known)
+    several = parameters(known["alpha"]) and len(tasks) > 1
+    if several and work.lines and isinstance(last := work.lines[-1], Step):
+        work.lines[-1] = _MultipliedOut(*last)
     if given.after is not None:
         work.say(f"After the step $θ$ is ${shown(given.after)}$:")
         after = work.equate("beta", after, exact(given.after), positive=True)
     work.answer(after)
     if given.first_order:
         work.answer(work.step(MAML_FIRST_ORDER, **known))
+
+
+class _MultipliedOut(Step):
+    """An outer step with α left open: the factors of every task, then what they make, before it is collected."""
+
+    def _written(self) -> Equation:
+        plain = super()._written()
+        factors, products = [], []
+        for task in self.known["tasks"]:
+            curvature, adapted = (self.known[name][task] for name in ("curvature", "adapted"))
+            terms = ONE - self.known["alpha"] * curvature, curvature, adapted - self.known["optimum"][task]
+            factors.append(sympy.Mul(*(leaf(term) for term in terms if term != 1), evaluate=False))
+            products.append(terms[0] * terms[1] * terms[2])
+        lines = map(self._down, (sympy.Add(*factors, evaluate=False), term_by_term(products)))
+        rights = (plain.rights[0], *map(typeset, lines), *plain.rights[1:])
+        return Equation(plain.left, rights, ("←", *["="] * (len(rights) - 1)))
+
+    def _down(self, gradient: Expr) -> Expr:
+        """The parameter, moved down a gradient."""
+        beta, start = (self.known[name] for name in ("beta", "theta0"))
+        down = sympy.Mul(-1, *([] if beta == 1 else [leaf(beta)]), gradient, evaluate=False)
+        return down if start == 0 else sympy.Add(leaf(start), down, evaluate=False)
 
 
 def _staying(work: Work, known: dict[str, Any]) -> None:

@@ -36,14 +36,12 @@ def solve(given: Given, work: Work) -> None:
 def _act(given: Given, work: Work, model: Model) -> dict[str, Any]:
     """The real updates, and the part or two about them; what is known after them."""
     known = knowns.action_run(given)
-    work.say(
-        "After a transition the model holds what has followed: $r̂(s_t, a_t) ← r_{t+1}$ and $ŝ(s_t, a_t) ← s_{t+1}$."
-    )
     for time, entry in enumerate(given.tried):
         greatest = greatest_told(work, known, known["S"][time + 1])
         work.say(f"Real update at $t = {time}$, of the pair {_named(entry.pair)}{greatest and f'; {greatest}'}:")
         known["Q"] = known["Q"] | {entry.pair: work.step(Q_LEARNING, t=time, **known)}
-        work.say(f"The model now holds for {_named(entry.pair)}: {_held(entry)}.")
+        rule = "" if time else ", $r̂(s_t, a_t) ← r_{t+1}$ and $ŝ(s_t, a_t) ← s_{t+1}$"
+        work.say(f"The model now holds what has followed{rule}: for {_named(entry.pair)} {_held(entry)}.")
     known["Q"] = known["Q"] | work.answer({pair: known["Q"][pair] for pair in given.updated})
     if given.changed:
         tried = joined([_named(entry.pair) for entry in given.tried])
@@ -66,8 +64,9 @@ def _plan(given: Given, work: Work, model: Model, known: dict[str, Any], stale: 
     for number, pair in enumerate(given.planned, 1):
         read = known if stale is None else known | {"Q": stale}
         greatest = greatest_told(work, read, model[pair].next)
+        which = f" {number}" if len(given.planned) > 1 else ""
         work.say(
-            f"Planned update {number}, of the pair {_named(pair)}; the model holds {_held(model[pair])}"
+            f"Planned update{which}, of the pair {_named(pair)}; the model holds {_held(model[pair])}"
             f"{greatest and f', and {greatest}'}:"
         )
         value = work.step(PLANNED_UPDATE, s=pair[0], a=pair[1], **read, **held)

@@ -54,6 +54,10 @@ def _bounds(given: Given, work: Work) -> dict[str, Any]:
     norm = MAX_NORM if given.first is None else MAX_NORM_OF_SWEEP
     distance = work.answer(work.step(norm, states=tuple(given.start), **values))
     if given.first is not None:
+        work.say(
+            "By the triangle inequality $‖V_0 − V^*‖_∞ ≤ ‖V_0 − V_1‖_∞ + ‖V_1 − V^*‖_∞$, and since a sweep contracts, "
+            "$‖V_1 − V^*‖_∞ ≤ γ‖V_0 − V^*‖_∞$. Both together, solved for $‖V_0 − V^*‖_∞$:"
+        )
         distance = work.answer(work.step(ERROR_FROM_CHANGE, change={0: distance}, gamma=gamma))
     known = {"distance": {0: distance}, "gamma": gamma}
     work.answer(work.step(CONTRACTION, k=given.sweeps, **known))

@@ -50,7 +50,7 @@ def solve(given: Given, work: Work) -> None:
     work.say("Over all episodes:")
     value = work.step(GOAL, episodes=tuple(probabilities), episode_pr=probabilities, episode_return=returns)
     if given.known is not None:
-        find(given, work, value)
+        find(given, work, value, "𝔼_π(R_0)")
         return
     work.answer(value)
 

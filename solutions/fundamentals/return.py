@@ -43,7 +43,7 @@ def solve(given: Any, work: Work) -> None:
         return
     known["gamma"] = exact(given.gamma)
     if given.known is not None:
-        find(given, work, work.step(RETURN, t=0, **known))
+        find(given, work, work.step(RETURN, t=0, **known), "R_0")
         return
     last = end - 1 if given.time is None else given.time
     G = {last: work.step(RETURN, t=last, **known)}
@@ -74,15 +74,25 @@ def _compare(given: Any, work: Work) -> None:
         work.answer((first, second))
         beyond = ONE
         told = "Without a discount, $γ = 1$, the returns are the sums of the rewards,"
+    written = (_added(each) if beyond == ONE else "" for each in (given.rewards, given.others))
     first, second = (work.value(RETURN, t=0, **known, gamma=beyond) for known in both)
     if first == second:
         raise NoSolution(
             f"with γ = {to_sympy(beyond)} both returns are {to_sympy(first)}, and it is asked which is larger"
         )
     larger = "A" if sign(first - second) > 0 else "B"
-    ends = f"$R_0 = {to_sympy(first)}$ and $R'_0 = {to_sympy(second)}$"
+    ends = " and ".join(
+        f"${name} = {sum_}{to_sympy(end)}$"
+        for name, sum_, end in zip(("R_0", "R'_0"), written, (first, second), strict=True)
+    )
     work.say(f"{told} {ends}: that of {EPISODES[larger]} episode is larger.")
     work.answer(larger)
+
+
+def _added(rewards: Any) -> str:
+    """The sum of rewards as one writes it down, before what it makes."""
+    first, *others = map(str, rewards)
+    return "".join([first, *(f" − {each[1:]}" if each.startswith("-") else f" + {each}" for each in others), " = "])
 
 
 def _known(rewards: Any) -> dict[str, Any]:
@@ -101,7 +111,7 @@ def _step_by_step(given: Any, work: Work, known: dict[str, Any]) -> None:
         if time == given.time and given.known is None:
             G[time] = work.answer(G[time])
     if given.known is not None:
-        find(given, work, G[0])
+        find(given, work, G[0], "R_0")
     elif given.time is None:
         work.answer(tuple(G[time] for time in range(known["T"])))
     elif given.time:

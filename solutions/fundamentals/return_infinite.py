@@ -3,10 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
-from rldrill.problems.exact import Parameter, Scalar, needed
+from rldrill.problems.exact import Parameter, Scalar, needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.return_infinite import Given
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import Value, exact, told
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
@@ -32,17 +32,17 @@ def solve(given: Given, work: Work) -> None:
         if k:
             work.answer(_from_start(given, work, exact, tail))
     elif k and _is_open(given.repeated) and _is_open(given.first):
-        found = work.equate(
-            given.letter, _from_start(given, work, exact, _tail(given, work, exact)), exact(given.known)
-        )
+        value = _from_start(given, work, exact, _tail(given, work, exact))
+        work.say(f"$R_0$ must be ${shown(given.known)}$:")
+        found = work.equate(given.letter, value, exact(given.known))
         work.answer(_tail(given, work, reading(found)))
         work.answer(found)
     elif k and _is_open(given.repeated):
         _in_the_round(given, work, exact(given.known))
     elif k and given.letter != "gamma":
-        find(given, work, _from_start(given, work, exact, work.answer(_tail(given, work, exact))))
+        find(given, work, _from_start(given, work, exact, work.answer(_tail(given, work, exact))), "R_0")
     else:
-        letter = find(given, work, _from_start(given, work, exact, _tail(given, work, exact)))
+        letter = find(given, work, _from_start(given, work, exact, _tail(given, work, exact)), "R_0")
         if k:
             work.answer(_tail(given, work, reading(letter)))
 
@@ -54,8 +54,12 @@ def _is_open(rewards: tuple[Scalar, ...]) -> bool:
 def _in_the_round(given: Given, work: Work, known: Value) -> None:
     """The return of the rewards that repeat from that of all, and the reward among them from it."""
     work.say(f"Let $y = R_{{{len(given.first)}}}$.")
-    tail = work.answer(work.equate("y", _from_start(given, work, exact, generator("y")), known))
-    work.answer(work.equate(given.letter, _tail(given, work, exact), tail))
+    value = _from_start(given, work, exact, generator("y"))
+    work.say(f"$R_0$ must be ${told(known)}$:")
+    tail = work.answer(work.equate("y", value, known))
+    value = _tail(given, work, exact)
+    work.say(f"This must be $y = {told(tail)}$:")
+    work.answer(work.equate(given.letter, value, tail))
 
 
 def _tail(given: Given, work: Work, read: Callable[[Scalar], Value]) -> Value:

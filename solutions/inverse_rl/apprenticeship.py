@@ -67,14 +67,20 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         stops = sign(limit - left) >= 0
         relation = "≤" if stops else ">"
         compared = f"{relation} {shown(given.tolerance)}$: {'yes, it stops' if stops else 'no, it goes on'}."
-        work.say("The method stops where the policies that it has found, mixed, come close enough to its aim:")
+        work.say(
+            f"The method stops when $‖w‖ ≤ {shown(given.tolerance)}$: the policies that it has found, mixed, then come "
+            "close enough to its aim:"
+        )
         work.recall(APPRENTICESHIP)
         work.say(lambda: f"$‖w‖ {near(left, 3)} {compared}")
         work.answer(stops)
 
 
 def _length(work: Work, known: dict[str, Any]) -> Any:
-    work.say("The projection goes the share $c$ of the way from $μ̄$ to $μ(π)$:")
+    work.say(
+        "The projection goes the share $c$ of the way from $μ̄$ to $μ(π)$, to the point from which the way on to "
+        "$μ(π_E)$ is orthogonal to it:"
+    )
     return work.step(PROJECTION_LENGTH, **known)
 
 

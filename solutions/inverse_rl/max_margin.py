@@ -40,6 +40,10 @@ def solve(given: Given, work: Work) -> None:
         for name in given.policies
         if sign(worth[EXPERT] - work.value(MAX_MARGIN_BOUND, policy=name, xi=ZERO, **sides)) < 0
     )
+    work.say(
+        "Solved for $ξ$, each constraint is a lower bound, $ξ ≥ w^⊤ μ(π) + m(π_E, π) − w^⊤ μ(π_E)$, and $ξ ≥ 0$ is one "
+        "more. The greatest of them is the smallest $ξ$:"
+    )
     slack = work.answer(work.step(SLACK, policies=tuple(given.policies), violated=violated, **sides))
     if not violated and slack == 0:
         work.say("No constraint is violated, so no slack is needed.")

@@ -5,9 +5,10 @@ from typing import Any
 
 from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero, sign
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.nodes.leaves import put_in_name
+from rldrill.solutions.linearisation import written_or_zero
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -93,12 +94,12 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
         ("s", names, STATE_JACOBIAN, formulas.s), ("a", actions, INPUT_JACOBIAN, formulas.a),
     ):  # fmt: skip
         of_r, of_f = derivative_of("r", code), derivative_of("f", code) if scalar else formula
-        known[f"r_{code}"] = matrices.column(_first(work, of_r, values, given.reward, "r", name) for name in by)
-        known[f"f_{code}"] = matrices.matrix(
-            [_first(work, of_f, values, text, index, name) for name in by] for index, text in texts.items()
-        )
-        if any(is_zero(entry) for head in "rf" for entry in known[f"{head}_{code}"].entries()):
+        of_reward = [_first(work, of_r, values, given.reward, "r", name) for name in by]
+        of_state = [[_first(work, of_f, values, text, index, name) for name in by] for index, text in texts.items()]
+        if any(entry is None for row in (of_reward, *of_state) for entry in row):
             work.say("The other derivatives are zero.")
+        known[f"r_{code}"] = matrices.column(map(written_or_zero, of_reward))
+        known[f"f_{code}"] = matrices.matrix(map(written_or_zero, row) for row in of_state)
         Q[f"Q_{code}"] = work.answer(_applied(given, work, gradient, known))
     if not scalar:
         work.say(
@@ -130,10 +131,11 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
 
 
 @dynamics.at_operating_point()
-def _first(work: Work, formula: Any, values: Mapping[str, Value], text: str, of: int | str, name: str) -> Value:
+def _first(work: Work, formula: Any, values: Mapping[str, Value], text: str, of: int | str, name: str) -> Value | None:
+    """A first derivative, if there is anything to write down."""
     right = dynamics.chained(text, name, ())
     into = partial_part if isinstance(of, str) else partial
-    return ZERO if right == 0 else work.step(formula, into=into, right=right, i=of, j=name, **values)
+    return None if right == 0 else work.step(formula, into=into, right=right, i=of, j=name, **values)
 
 
 @dynamics.at_operating_point()

@@ -4,6 +4,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from rldrill.problems.exact import shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_backward import Given
 from rldrill.solutions import linear_quadratic
@@ -41,6 +42,7 @@ def solve(given: Given, work: Work) -> None:
     if given.action is not None:
         gain = _gain(lqr, work, 0, Pt=P, **known)
         action = work.step(lqr.action, t=0, Lt={0: gain}, St=start)
+        work.say(f"${given.notation.action}_0$ must be ${shown(given.action)}$:")
         price = work.answer(work.equate("rho", action[0, 0], exact(given.action), positive=True))
         priced = work.answer(linear_quadratic.with_price(work, lqr, gain, price))
         work.answer(work.step(lqr.riccati, t=0, Pt=P, Lt={0: priced}, **known))

@@ -4,6 +4,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from rldrill.problems.exact import shown
 from rldrill.problems.linear_methods.lqr_gain import Given
 from rldrill.solutions import linear_quadratic
 from rldrill.solutions.exact import exact
@@ -31,6 +32,7 @@ def solve(given: Given, work: Work) -> None:
     L = linear_quadratic.gain(work, lqr, **known)
     if given.action is not None:
         action = work.step(lqr.action, t=0, Lt={0: L}, St={0: start})
+        work.say(f"${given.notation.action}_0$ must be ${shown(given.action)}$:")
         price = work.answer(work.equate("rho", action[0, 0], exact(given.action), positive=True))
         work.answer(linear_quadratic.with_price(work, lqr, L, price))
         return

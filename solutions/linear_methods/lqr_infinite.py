@@ -8,7 +8,7 @@ from flint import fmpq
 from sympy import Expr
 
 from rldrill.problems.document import joined
-from rldrill.problems.exact import needed
+from rldrill.problems.exact import needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
@@ -108,6 +108,7 @@ def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator)
     L, P = given.notation.gain, given.notation.value
     system = {f"{name}i": getattr(regulator, name) for name in "ABQR"} | {"gamma": regulator.gamma}
     loop = work.step(formulas.closed_loop, **system, **{f"{L}i": _single(generator(L))})
+    work.say(f"$A − B {L}$ must be ${shown(needed(given.closed_loop))}$:")
     gain = work.equate(L, loop[0, 0], exact(needed(given.closed_loop)))
 
     def riccati(value: Value) -> Value:

@@ -2,6 +2,7 @@
 
 from msgspec.structs import replace
 
+from rldrill.problems.exact import shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_reward import Given
 from rldrill.problems.linear_quadratic import by_time
@@ -58,6 +59,7 @@ def solve(given: Given, work: Work) -> None:
     if given.total is None:
         work.answer(J)
         return
+    work.say(f"$J$ must be ${shown(given.total)}$:")
     price = work.answer(work.equate("rho", J, exact(given.total), positive=True))
     work.say(f"With $ρ = {to_sympy(price)}$ the first reward is:")
     first = with_found(rewards[0], price)

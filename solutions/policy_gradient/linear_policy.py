@@ -1,15 +1,17 @@
 """The value of every action, then the action with the greatest."""
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Parameter, needed
 from rldrill.problems.policy_gradient.linear_policy import Given
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import Value, exact, sign, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import greedy
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.rational import linear
 from rldrill.solutions.sheet.policy_gradient import LINEAR_ACTION_VALUE, LINEAR_POLICY, WEIGHTS_FORGOTTEN
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.softmax import action_features, by_number
@@ -22,14 +24,32 @@ def solve(given: Given, work: Work) -> None:
     if given.at is None:
         _greedy(given, work, work.answer(_values(given, work, known)))
         return
-    edges = {}
+    edges, gains = {}, {}
     for state, row in given.features.items():
-        both = [work.step(LINEAR_ACTION_VALUE, s=state, a=action, **known) for action in row]
+        first, second = (work.step(LINEAR_ACTION_VALUE, s=state, a=action, **known) for action in row)
         work.say(f"In {state} the two are equal where")
-        edges[state] = work.equate("w", *both)
+        edges[state] = work.equate("w", first, second)
+        gains[state] = linear(first - second, "w")[0]
     work.answer(edges)
     known |= by_number([exact(weight) for weight in given.numbers])
-    _greedy(given, work, _values(given, work, known))
+    _greedy(given, work, _values(given, work, known), _by_the_edges(given, edges, gains))
+
+
+def _by_the_edges(given: Given, edges: Mapping[str, Value], gains: Mapping[str, Value]) -> dict[str, str]:
+    """Which action is ahead in every state by the weight of equal values, and why; nothing at this weight itself."""
+    reasons = {}
+    for state, edge in edges.items():
+        rows = tuple(given.features[state])
+        behind, ahead = rows if sign(gains[state]) < 0 else rows[::-1]
+        place = sign(exact(needed(given.at)) - edge)
+        if place > 0:
+            why = f"above ${told(edge)}$ {ahead} is ahead, since it gains on {behind}"
+        elif place < 0:
+            why = f"below ${told(edge)}$ {behind} is ahead, since {ahead} gains on it"
+        else:
+            continue
+        reasons[state] = f" By (a) this must be so: {why} as $w$ grows."
+    return reasons
 
 
 def _values(given: Given, work: Work, known: Mapping[str, Any]) -> dict[tuple[str, str], Value]:
@@ -37,11 +57,13 @@ def _values(given: Given, work: Work, known: Mapping[str, Any]) -> dict[tuple[st
     return {(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=a, **known) for s, a in pairs}
 
 
-def _greedy(given: Given, work: Work, values: Mapping[tuple[str, str], Value]) -> None:
+def _greedy(
+    given: Given, work: Work, values: Mapping[tuple[str, str], Value], why: Mapping[str, str] = MappingProxyType({})
+) -> None:
     actions = {state: tuple(row) for state, row in given.features.items()}
     best = {state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions}
     for state, row in best.items():
-        work.say(f"In {state}, {greedy(row, len(actions[state]))}.")
+        work.say(f"In {state}, {greedy(row, len(actions[state]))}.{why.get(state, '')}")
     work.answer(best)
 
 

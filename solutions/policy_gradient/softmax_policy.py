@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from rldrill.problems.document import Equation
-from rldrill.problems.exact import Logarithm
+from rldrill.problems.exact import Logarithm, shown
 from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
@@ -28,7 +28,7 @@ from rldrill.solutions.sheet.policy_gradient import (
     WITHOUT_EXP,
 )
 from rldrill.solutions.sheet.policy_gradient import theta as theta_of
-from rldrill.solutions.softmax import action_features, by_number, chances
+from rldrill.solutions.softmax import action_features, by_number, chances, tell_exponentials
 from rldrill.solutions.work import Equality, Step, Work
 
 
@@ -42,6 +42,7 @@ def solve(given: Given, work: Work) -> None:
         return
     preferences = work.answer({action: work.step(PREFERENCE, a=action, **known) for action in actions})
     known["H"] = {("s", action): preferences[action] for action in actions}
+    tell_exponentials(work, preferences.values())
     found = work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
     if given.entropy:
         known["pi"] = {(action, "s"): found[action] for action in actions}
@@ -82,6 +83,7 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
     pair = odds.action, odds.other
     bound = {**known, "H": {("s", action): work.step(PREFERENCE, a=action, **known) for action in pair}}
     quotient = work.step(SOFTMAX_ODDS, a=odds.action, a1=odds.other, **bound)
+    work.say(f"This quotient must be ${shown(odds.times)}$:")
     x = work.answer(work.equate("x", quotient, exact(odds.times)))
     theta = [
         sympy.expand_log(to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)), factor=True)

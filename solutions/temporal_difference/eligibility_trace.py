@@ -33,7 +33,7 @@ def solve(given: Given, work: Work) -> None:
     if given.known is not None:
         first, *asked = given.asked
         found = _traces(given, work, exact, range(first + 1), {})
-        letter = find(given, work, found[given.states[0]])
+        letter = find(given, work, found[given.states[0]], f'e("{given.states[0]}")')
         read, start = reading(letter), first + 1
         traces |= {state: value_at(value, letter) for state, value in found.items()}
         work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$, after the update at $t = {first}$:")

@@ -47,7 +47,7 @@ def solve(given: Given, work: Work) -> None:
     if given.known is None:
         work.answer(value)
     else:
-        find(given, work, value)
+        find(given, work, value, f"R_{{{given.time}}}^{{(λ)}}")
 
 
 def known_episode(given: Any, read: Callable[[Scalar], Value] = exact) -> dict[str, Any]:

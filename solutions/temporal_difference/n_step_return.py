@@ -38,7 +38,9 @@ def solve(given: Given, work: Work) -> None:
     read: Callable[[Scalar], Value] = exact
     asked = given.asked
     if given.known is not None:
-        letter = find(given, work, n_step(work, _known(given, exact), *asked[0]))
+        time, steps = asked[0]
+        first = n_step(work, _known(given, exact), time, steps)
+        letter = find(given, work, first, f"R_{{{time}}}^{{({steps})}}")
         read, asked = reading(letter), asked[1:]
     known = _known(given, read)
     end = len(given.trajectory.rewards)

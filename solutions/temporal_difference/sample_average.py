@@ -1,9 +1,14 @@
 """The incremental mean, visit by visit; or with a constant step size the weighted sum of all returns."""
 
+from math import prod
+
+from rldrill.problems.document import Equation
 from rldrill.problems.temporal_difference.sample_average import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import ONE, exact, parameters
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.typesetting import typeset
+from rldrill.solutions.multiplied_out import term_by_term
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
@@ -22,7 +27,7 @@ from rldrill.solutions.sheet.temporal_difference import (
     VISIT_COUNT,
     of_a_visit,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Step, Work
 
 
 def solve(given: Given, work: Work) -> None:
@@ -44,7 +49,7 @@ def _averaged(given: Given, work: Work) -> None:
     if given.known is None:
         work.answer({state: values[state] for state in given.visited})
     else:
-        find(given, work, values[given.visited[0]])
+        find(given, work, values[given.visited[0]], f'V("{given.visited[0]}")')
 
 
 def _weighted(given: Given, work: Work) -> None:
@@ -52,9 +57,14 @@ def _weighted(given: Given, work: Work) -> None:
     if given.known is not None and len(given.visits) == 1:
         ((state, observed),) = given.visits
         known = {"s": state, "observed": exact(observed), "V": knowns.values(given.values)}
-        find(given, work, work.step(of_a_visit(MONTE_CARLO), alpha=exact(given.alpha), **known))
+        moved = work.step(of_a_visit(MONTE_CARLO), alpha=exact(given.alpha), **known)
+        find(given, work, moved, f'V("{state}")')
         return
     count, alpha = len(given.visits), exact(given.alpha)
+    work.say(
+        "An update is $V ← (1 − α) V + α R$: a return enters with the weight $α$, and each of the $n − i$ updates "
+        "after it leaves $1 − α$ of this:"
+    )
     weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
     if given.known is None:
         carried = work.answer(weights[0] if count == 1 else weights)
@@ -63,10 +73,23 @@ def _weighted(given: Given, work: Work) -> None:
     G = {visit: exact(value) for visit, (_, value) in enumerate(given.visits, start=1)}
     start = exact(given.values[given.visited[0]])
     value = work.step(CONSTANT_STEP_SIZE, n=count, alpha=alpha, w=w, G=G, Vn={0: start})
+    if parameters(alpha) and count > 2 and work.lines and isinstance(last := work.lines[-1], Step):
+        work.lines[-1] = _MultipliedOut(*last)
     if given.known is None:
         work.answer(value)
     else:
-        find(given, work, value)
+        find(given, work, value, f'V("{given.visited[0]}")')
+
+
+class _MultipliedOut(Step):
+    """The weighted sum with α left open: every term multiplied out, before they are collected."""
+
+    def _written(self) -> Equation:
+        plain = super()._written()
+        kept = prod([ONE - self.known["alpha"]] * self.known["n"], start=ONE)
+        returns = (self.known["w"][i] * G for i, G in self.known["G"].items())
+        apart = typeset(term_by_term((kept * self.known["Vn"][0], *returns)))
+        return Equation(plain.left, (*plain.rights[:-1], apart, plain.rights[-1]), (*plain.signs, "="))
 
 
 @slip(

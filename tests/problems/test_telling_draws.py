@@ -244,3 +244,19 @@ def test_models_have_at_most_half_as_many_parameters_as_data() -> None:
 def test_no_best_action_of_a_scalar_system_brings_the_state_to_0_at_once() -> None:
     for seed in range(60):
         assert draw("lqr-infinite", 2, seed).answers["c"] != 0
+
+
+def test_from_which_reward_an_action_is_optimal_is_not_the_value_of_another() -> None:
+    # Where the action ends the episode for sure, the reward is all that it is worth.
+    for given in drawn("optimal-policy-from-q", (3,)):
+        assert given.tied is not None
+        assert [row.next for row in given.missing.outcomes[given.tied]] not in [[end] for end in given.terminal]
+
+
+def test_no_two_actions_of_a_softmax_policy_are_as_probable_where_x_plays_a_part() -> None:
+    for seed in range(60):
+        solution = draw("softmax-policy", 3, seed)
+        given: Any = solution.problem.given
+        if not given.entropy:
+            chances = solution.answers["b"].values()
+            assert len({*map(str, chances)}) == len(chances), seed
