@@ -1,11 +1,14 @@
 """Models as the arrays of pymdptoolbox: P of shape (A, S, S), and R of shape (S,), (S, A) or (A, S, S)."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rldrill.problems.readings import is_zero, several
 from rldrill.problems.transition_tables import ALONE
 
+_TOKEN = re.compile(r"[\[\]]|[^\[\],\s]+")
+_CALL = re.compile(r"(?:\b(?:np|numpy|jnp)\.)?\barray\(|\)")
 _SHAPES = "one number for every state, (S,); for every state and action, (S, A); or shaped like P, (A, S, S)"
 
 #: What a file holds, as JSON Schema.
@@ -60,7 +63,10 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
         raise ValueError(f"{min(extra)!r} is not understood beside the arrays P and R; take it out")
     if "R" not in data:
         raise ValueError("R, the array of rewards, is missing beside P; add it")
-    P, R = data["P"], data["R"]
+    P, R, names = nested(data["P"]), nested(data["R"]), None
+    if isinstance(P, Mapping):
+        names = [str(name) for name in P]
+        P, R = list(P.values()), _by_action(R, names)
     shape = _shape(P)
     alone = len(shape) == 2 and shape[0] == shape[1]
     if alone:
@@ -75,7 +81,7 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
     rows = [
         [
             str(s),
-            ALONE if alone else str(a),
+            ALONE if alone else names[a] if names else str(a),
             str(after),
             chance,
             R[s] if len(kind) == 1 else R[s][a] if len(kind) == 2 else R[a][s][after],
@@ -87,6 +93,51 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
         if not is_zero(chance)
     ]
     return {"transitions": rows, "terminal": terminal} | {key: data[key] for key in ("story",) if key in data}
+
+
+def nested(array: Any) -> Any:
+    """An array, or a table of arrays, in which a text such as ``[[1, 0], [0, 1]]`` is the lists that it shows.
+
+    Raises:
+        ValueError: its brackets do not fit.
+    """
+    if isinstance(array, Mapping):
+        return {name: nested(each) for name, each in array.items()}
+    if not isinstance(array, str):
+        return array
+    if ";" in array and array.count("[") < 2:  # [1 0; 0 1]
+        return [_TOKEN.findall(row.strip(" []\n")) for row in array.split(";")]
+    open_: list[list[Any]] = [[]]
+    for token in _TOKEN.findall(_CALL.sub(" ", array)):
+        if token == "[":
+            open_.append([])
+        elif token == "]":
+            inner = open_.pop()
+            if not open_:
+                break
+            open_[-1].append(inner)
+        else:
+            open_[-1].append(token)
+    if len(open_) != 1 or len(open_[0]) != 1:
+        raise ValueError(f"the brackets of the array {array.strip()[:20]!r} do not fit; write [[1, 0], [0, 1]]")
+    return open_[0][0]
+
+
+def is_square(array: Any) -> bool:
+    """Whether an array has as many rows as columns, so that nobody sees which are which."""
+    rows = nested(array)
+    return isinstance(rows, list) and all(isinstance(row, list) and len(row) == len(rows) for row in rows)
+
+
+def _by_action(R: Any, names: Sequence[str]) -> Any:
+    """Rewards by the names of the actions, as R[s][a] or R[a][s][s′]; others as they are."""
+    if not isinstance(R, Mapping):
+        return R
+    if missing := [name for name in names if name not in map(str, R)]:
+        raise ValueError(f"R: the rewards of {missing[0]!r} are missing; add them")
+    rows = {str(name): row for name, row in R.items()}
+    found = [rows[name] for name in names]
+    return [list(row) for row in zip(*found, strict=True)] if len(_shape(found)) == 2 else found
 
 
 def _shape(array: object) -> tuple[int, ...]:

@@ -6,6 +6,7 @@ from typing import Any
 
 from rldrill.problems.exact import is_scalar
 from rldrill.problems.expressions import GREEK
+from rldrill.problems.row_texts import row_of, rows_of, tables_of
 
 Schema = Mapping[str, Any]
 
@@ -36,6 +37,8 @@ def _settled(value: Any, schemas: Sequence[Schema], parts: Mapping[str, Schema])
     forms = [form for schema in schemas for form in _forms(schema, parts)]
     if not forms:
         return value
+    if all(form.get("type") == "array" for form in forms):
+        value = _rows(value, _entries(forms, parts))
     if all(form.get("type") == "array" for form in forms) and not isinstance(value, list | tuple):
         value = [value] if _may_be_an_entry(value, _entries(forms, parts)) else value
     if isinstance(value, dict):
@@ -57,6 +60,21 @@ def _forms(schema: Schema, parts: Mapping[str, Schema]) -> Iterator[Schema]:
         yield from _forms(each, parts)
     if not inner and schema.get("type") != "null":
         yield schema
+
+
+def _rows(value: Any, entries: Sequence[Schema]) -> Any:
+    """The rows, or the tables, of a list that is given as one text; and rows that are given as tables."""
+    for entry in entries:
+        row = [each.get("description", "") for each in entry.get("prefixItems", ())]
+        if isinstance(value, str):
+            found: Any = rows_of(value, row) if row else tables_of(value, list(entry.get("properties", ())))
+        elif row and isinstance(value, list) and all(isinstance(each, dict) for each in value):
+            found = [row_of(each, row) for each in value]
+        else:
+            continue
+        if found and all(found):
+            return found
+    return value
 
 
 def _entries(forms: Sequence[Schema], parts: Mapping[str, Schema]) -> list[Schema]:

@@ -26,6 +26,18 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
          {"steps": [{"z": 1}]}),
         # one row without the brackets of the list
         ("bandit", {"pulls": ["a", 1], "arms": ["a", "b"]}, {"pulls": [["a", 1]]}),
+        # rows and tables as one text, or as tables
+        ("bandit", {"pulls": "a 1\na 3\nb 2"}, {"pulls": [["a", 1], ["a", 3], ["b", 2]]}),
+        ("bandit", {"pulls": "a, 1; a, 3; b, 2"}, {"pulls": [["a", 1], ["a", 3], ["b", 2]]}),
+        ("bandit", {"pulls": "| reward | arm |\n|---|---|\n| 1 | a |\n| 3 | b |"}, {"pulls": [["a", 1], ["b", 3]]}),
+        ("td-zero", {"transitions": [{"s": "a", "r": 1, "s'": "b"}, {"s": "b", "s'": "a", "r": 2}], "alpha": 1,
+                     "values": {"a": 0, "b": 0}, "gamma": 1}, {"transitions": [["a", "b", 1], ["b", "a", 2]]}),
+        ("denavit-hartenberg", {"links": "a alpha d theta\n1 0 0 30°\n0 90° 2 0"},
+         {"links": [{"a": 1, "alpha": 0, "d": 0, "theta": "30°"}, {"a": 0, "alpha": "90°", "d": 2, "theta": 0}]}),
+        # where actions lead as rows alone
+        ("bellman-backup", {"dynamics": [["c", "l", "d", 1, 2], ["c", "r", "e", 1, 4]], "values": {"d": 2, "e": 4},
+                            "gamma": "1/2", "policy": "random"},
+         {"dynamics": {"transitions": [["c", "l", "d", 1, 2], ["c", "r", "e", 1, 4]]}}),
         # other names of fields
         ("eligibility-trace", {"states": ["a"], "\N{GREEK SMALL LETTER GAMMA}": 1, "lambda": 1, "asked": [0]},
          {"gamma": 1, "lam": 1}),
@@ -108,6 +120,15 @@ TWO = {
         # V(A) = (5 + V(B)/2 + 1 + V(A)/2)/2, V(B) = (2 + V(A)/2 + V(B)/2)/2: 5 and 3
         ({"go": 0.5, "stay": "1/2"}, (5, 3)),
         ("uniform", (5, 3)),
+        # by rows, as a text, and in the order of the states: V(A) = 5 + V(B)/2, V(B) = V(B)/2: 5 and 0
+        ([["A", "go"], ["B", "stay"]], (5, 0)),
+        ("A: go, B: stay", (5, 0)),
+        ("π(A) = go; π(B) = stay", (5, 0)),
+        ("A -> go\nB -> stay", (5, 0)),
+        (["go", "stay"], (5, 0)),
+        ([[1, 0], ["0", "1"]], (5, 0)),
+        ([["A", "go", 0.5], ["A", "stay", 0.5], ["B", "go", "1/2"], ["B", "stay", "1/2"]], (5, 3)),
+        ([["1/2", "1/2"], [0.5, 0.5]], (5, 3)),
     ],
 )
 def test_a_policy_that_is_the_same_everywhere_may_be_written_once(policy: Any, values: tuple[int, int]) -> None:
@@ -115,12 +136,39 @@ def test_a_policy_that_is_the_same_everywhere_may_be_written_once(policy: Any, v
     assert rldrill.read(problem).answers() == {"a": dict(zip("AB", values, strict=True))}
 
 
+def test_the_order_of_the_states_is_told_where_a_policy_rests_on_it() -> None:
+    told: list[str] = []
+    given = {"mdp": TWO, "gamma": 0.5, "policy": ["go", "stay"]}
+    family("policy-value").read(given, told.append)
+    assert told == ["took the policy in the order of the states A, B and of the actions go, stay"]
+
+
+def test_rows_that_may_be_pairs_or_probabilities_are_refused() -> None:
+    """Of [[1, 0], [0, 1]] the first row may say that action 0 is taken in state 1, or in state 0 for sure."""
+    model = {"P": [[[1, 0], [0, 1]], [[0, 1], [1, 0]]], "R": [0, 1]}
+    with pytest.raises(FileError, match="policy"):
+        family("policy-value").read({"mdp": model, "gamma": 0.5, "policy": [[1, 0], [0, 1]]})
+
+
 def test_the_policy_to_start_from_may_be_one_action() -> None:
     given = {"mdp": TWO, "gamma": 0.5, "start": "go", "rounds": 1}
     assert rldrill.read({"family": "policy-iteration", "given": given}).answers()["a"] == {"A": 8, "B": 6}
 
 
-@pytest.mark.parametrize("policy", ["fly", {"go": 1, "A": "go"}, {"fly": 1}, ["go", "stay"]])
+@pytest.mark.parametrize(
+    "policy",
+    [
+        "fly",
+        {"go": 1, "A": "go"},
+        {"fly": 1},
+        ["go", "fly"],
+        ["go"],
+        [["A", "go"], ["A", "stay"]],
+        [1, 0],
+        [["A", "go"], ["B", "go", 1]],
+        "A: go, B",
+    ],
+)
 def test_a_policy_of_something_else_is_refused(policy: Any) -> None:
     with pytest.raises(FileError):
         family("policy-value").read({"mdp": TWO, "gamma": 0.5, "policy": policy})
