@@ -17,13 +17,13 @@ SCHEMA: dict[str, Any] = {
     "description": "The arrays of pymdptoolbox; states and actions are called 0, 1, 2, and so on.",
     "properties": {
         "P": {
-            "type": "array",
+            "type": ["array", "object", "string"],
             "title": "a list of a square of rows for every action, of shape (A, S, S)",
             "description": "The probability of every next state, by action and state.",
             "examples": [[[["1/2", "1/2"], [0, 1]]]],
         },
         "R": {
-            "type": "array",
+            "type": ["array", "object", "string"],
             "title": "a list of shape (S,), (S, A) or (A, S, S)",
             "description": "The rewards of states, of their actions, or of all that these lead to.",
             "examples": [[1, 0]],

@@ -19,6 +19,8 @@ ALSO = {
 } | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
 #: What stands between the entries of a list that is given as one text; such a text is none of its entries.
 _PARTED = re.compile(r"[\s,;]")
+#: What a schema only says, or gives as values.
+_SAID = ("title", "description", "default", "examples", "enum", "const")
 #: What the schema of an entry has inside which something may have to be settled.
 _INNER = {"properties", "additionalProperties", "enum"}
 
@@ -31,6 +33,35 @@ def settled(given: Any, schema: Schema) -> Any:
         schema: the JSON Schema of the givens.
     """
     return _settled(given, [schema], schema.get("$defs", {}))
+
+
+def written(schema: Schema) -> dict[str, Any]:
+    """The JSON Schema of what files may hold as ``settled`` reads it: an entry for a list of one, a text for rows."""
+    return _written(schema, schema.get("$defs", {}))
+
+
+def _written(schema: Any, parts: Mapping[str, Schema]) -> Any:
+    if isinstance(schema, list):
+        return [_written(each, parts) for each in schema]
+    if not isinstance(schema, dict):
+        return schema
+    whole = {}
+    for key, value in schema.items():
+        if key in ("properties", "$defs"):
+            whole[key] = {name: _written(each, parts) for name, each in value.items()}
+        else:
+            whole[key] = value if key in _SAID else _written(value, parts)
+    about = {key: whole.pop(key) for key in _SAID if key in whole}
+    if schema.get("required") == ["transitions"]:
+        return about | {"anyOf": [whole, whole["properties"]["transitions"]]}
+    entries = _entries([schema], parts) if schema.get("type") == "array" else []
+    if not entries:
+        return whole | about
+    rows = any("prefixItems" in entry or "properties" in entry for entry in entries)
+    alone = [] if any(entry.get("type") == "array" for entry in entries) else [whole["items"]]
+    if any("prefixItems" in entry for entry in entries):
+        whole["items"] = {"anyOf": [whole["items"], {"type": "object"}]}
+    return about | {"anyOf": [whole, *alone, *([{"type": "string"}] if rows else [])]}
 
 
 def _settled(value: Any, schemas: Sequence[Schema], parts: Mapping[str, Schema]) -> Any:

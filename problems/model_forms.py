@@ -12,12 +12,12 @@ from rldrill.problems.transition_tables import ALONE, read_markdown_table, read_
 
 _ROW = "[state, action, next, probability, reward]"
 
-_REWARDS_SCHEMA = {
+_REWARDS_SCHEMA: dict[str, Any] = {
     "type": "object",
     "description": "Transitions without rewards, and beside them the rewards of states or of their actions.",
     "properties": {
         "transitions": {
-            "type": "array",
+            "type": ["array", "object", "string"],
             "title": "a list, each [state, action, next, probability], or [state, next, probability] without actions",
             "description": "The transitions; those of a state and action have probabilities that sum to 1.",
             "examples": [[["low", "wait", "low", 1]]],

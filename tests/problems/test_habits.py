@@ -3,6 +3,7 @@
 from fractions import Fraction
 from typing import Any
 
+import jsonschema
 import pytest
 
 import rldrill
@@ -203,3 +204,48 @@ def test_ways_may_have_costs() -> None:
             family("principle-of-optimality").read(given | {"costs": [wrong]})
     with pytest.raises(FileError, match="costs is not a field"):
         family("principle-of-optimality").read(given | {"edges": costs})
+
+
+ROWS = [["A", "go", "A", 1, 1]]
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("return-infinite", {"first": 2, "repeated": "7", "gamma": "1/2"}),
+        ("return", {"rewards": 3, "gamma": 1}),
+        ("bandit", {"pulls": "a 1\na 3\nb 2"}),
+        ("kalman-filter", {"mean": 0, "covariance": 1, "process": 0, "sensor": 1, "steps": {"z": 1}}),
+        ("td-zero", {"transitions": [{"s": "a", "r": 1, "s'": "b"}], "values": {"a": 0, "b": 0}, "alpha": 1,
+                     "gamma": 1}),
+        ("denavit-hartenberg", {"links": "a alpha d theta\n1 0 0 30°"}),
+        ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": "go"}),
+        ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": [["A", "go"]]}),
+        ("policy-value", {"mdp": {"transitions": "A go A 1 1"}, "gamma": "1/2"}),
+        ("policy-value", {"mdp": ROWS, "gamma": "1/2"}),
+        ("policy-value", {"mdp": {"P": "[[[1]]]", "R": "[1]"}, "gamma": "1/2"}),
+        ("policy-value", {"mdp": {"P": {"go": [[1]]}, "R": {"go": [1]}}, "gamma": "1/2"}),
+        ("action-value", {"dynamics": ROWS, "values": {"A": 1}, "gamma": "1/2"}),
+    ],
+)  # fmt: skip
+def test_the_schema_of_files_takes_the_short_forms_that_are_read(name: str, given: dict[str, Any]) -> None:
+    schema = family(name).written_schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(given, schema)
+    family(name).read(given)
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("return", {"rewards": {"a": 3}, "gamma": 1}),
+        ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": "0, 1"}),
+        ("rbf", {"position": [1], "centres": 3, "sigma": 1, "theta": "1 2", "more": 1}),
+        ("policy-value", {"mdp": 3, "gamma": "1/2"}),
+    ],
+)
+def test_the_schema_of_files_refuses_what_is_not_read(name: str, given: dict[str, Any]) -> None:
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(given, family(name).written_schema())
+    with pytest.raises(FileError):
+        family(name).read(given)
