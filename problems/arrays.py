@@ -124,9 +124,12 @@ def nested(array: Any) -> Any:
 
 
 def is_square(array: Any) -> bool:
-    """Whether an array has as many rows as columns, so that nobody sees which are which."""
-    rows = nested(array)
-    return isinstance(rows, list) and all(isinstance(row, list) and len(row) == len(rows) for row in rows)
+    """Whether an array has two indices and as many rows as columns, so that nobody sees which are which."""
+    try:
+        shape = _shape(nested(array)) if isinstance(array, list | str) else ()
+    except ValueError:
+        return False
+    return len(shape) == 2 and shape[0] == shape[1]
 
 
 def _by_action(R: Any, names: Sequence[str]) -> Any:

@@ -419,6 +419,9 @@ def test_it_is_told_which_index_of_the_rewards_is_which() -> None:
     notes: list[str] = []
     read_form({"P": [[[1, 0], [0, 1]], [[0, 1], [1, 0]]], "R": [[0, 1], [2, 3]]}, notes.append)
     assert notes == [SQUARE.replace(",", " and R for R[state][action],")]
+    notes.clear()
+    read_form({"P": [[[1, 0], [0, 1]], [[0, 1], [1, 0]]], "R": [[[0, 1], [2, 3]]] * 2}, notes.append)
+    assert notes == [SQUARE]
 
 
 def test_rows_of_numbers_that_could_be_another_process_are_told() -> None:
