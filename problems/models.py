@@ -167,7 +167,12 @@ class Model(Dynamics):
             return terminal
         acting = {row.state for row in rows}
         found = tuple(dict.fromkeys(row.next for row in rows if row.next not in acting))
+        meant = {state.casefold(): state for state in acting}
         for state in found:
+            if alike := meant.get(state.casefold()):
+                raise ValueError(
+                    f"{state!r} has no action, but {alike!r} has; write its name alike, or list {state!r} as terminal"
+                )
             note_of(info)(f"took {state!r}, which has no action, for a terminal state")
         return found
 

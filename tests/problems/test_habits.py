@@ -10,6 +10,7 @@ import rldrill
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 
+_OTHERWISE = ("\N{GREEK SMALL LETTER GAMMA}", "lambda", "episode", "V")
 RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
 
 
@@ -49,6 +50,8 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
                            "motion": {"a": {"go": {"b": "1/3", "a": "2/3"}}, "b": {"go": {"b": 1}}}},
          {"actions": ["go"], "motion": {"go": {"a": {"b": "1/3", "a": "2/3"}, "b": {"b": 1}}}}),
         ("value-from-action-values", {"values": {"s": {"l": 1, "r": 3}}, "policy": "random"}, {"policy": "uniform"}),
+        ("monte-carlo", {"episode": RUN, "V": {"a": 0, "b": 0}, "alpha": 1, "gamma": 1, "visits": "every"},
+         {"trajectory": RUN, "values": {"a": 0, "b": 0}}),
         # columns
         ("kalman-filter", {"mean": [1, 2], "covariance": [[1, 0], [0, 1]], "A": [[1, 1], [0, 1]], "B": [[0], [1]],
                            "C": [[1, 0]], "process": [[0, 0], [0, 0]], "sensor": 1, "steps": [{"u": [3], "z": [4]}]},
@@ -59,7 +62,7 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
     ],
 )  # fmt: skip
 def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], usual: dict[str, Any]) -> None:
-    kept = {key: value for key, value in given.items() if key not in ("\N{GREEK SMALL LETTER GAMMA}", "lambda")}
+    kept = {key: value for key, value in given.items() if key not in _OTHERWISE}
     assert family(name).read(given) == family(name).read(kept | usual)
 
 

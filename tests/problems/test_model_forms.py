@@ -70,6 +70,13 @@ def test_ends_are_found_where_none_are_named() -> None:
         process(["s", "a", "t", 0.5, 0], ["s", "a", "u", 0.5, 0], terminal=["t"])
 
 
+def test_a_name_in_other_capitals_is_no_end_unless_it_is_said() -> None:
+    rows: list[list[object]] = [["A", "go", "b", 1, 1], ["B", "go", "A", 1, 0]]
+    with pytest.raises(ValidationError, match="'b' has no action, but 'B' has; write its name alike, or list 'b' as"):
+        process(*rows)
+    assert process(*rows, terminal=["b"]).terminal == ("b",)
+
+
 def test_rewards_of_states_and_of_actions() -> None:
     rows: list[list[object]] = [["s", "go", "t", 0.5], ["s", "go", "s", 0.5], ["s", "no", "s", 1]]
     half = Fraction(1, 2)
