@@ -101,6 +101,8 @@ _SAID_FIRST = re.compile(
 #: In brackets a sign that touches what follows begins an entry: [1 -1].
 _SIGNED_ENTRY = re.compile(r"[\w)]\s+[-+](?=[\w(√])")
 _SIGNED_LINE = re.compile(r"[\w.)\]}%]\s*\n\s*(?=[-+])")
+#: The name of an entry of a matrix, with its row and column: J12 =, J_{1,2} =, A[1, 2]:
+_INDEXED = re.compile(r"[^\W\d_]\w*?_?[{(\[]?([1-9]),?\s*([1-9])[})\]]?\s*[=:]\s*(?=\S)")
 #: A comma that may be a decimal comma.
 _TIGHT = re.compile(r",(?!\s)")
 _ENTRIES = 200
@@ -233,9 +235,27 @@ def read_matrix(
         Unreadable: an entry is not a number, or the shape is another one.
     """
     source = clean(text, longest)
+    if shape and (placed := _by_indices(source, *shape)):
+        arithmetic = Arithmetic()
+        return tuple(tuple(_numbers([entry], parameters, None, arithmetic)[0] for entry in row) for row in placed)
     return _forms(
         source, lambda member: _matrix(member, shape, parameters), lambda rows: _given(chain.from_iterable(rows))
     )
+
+
+def _by_indices(source: Source, rows: int, columns: int) -> list[list[Source]] | None:
+    """The entries of a matrix that are typed one by one, each with its row and column; None if not all are."""
+    pieces = [piece for piece in source.split(",;\n") if piece.text]
+    named = [_INDEXED.match(piece.text) for piece in pieces]
+    found = {
+        (int(name[1]), int(name[2])): piece.part(name.end(), len(piece.text))
+        for piece, name in zip(pieces, named, strict=True)
+        if name
+    }
+    places = [[(row, column) for column in range(1, columns + 1)] for row in range(1, rows + 1)]
+    if len(pieces) != rows * columns or {*found} != {*chain.from_iterable(places)}:
+        return None
+    return [[found[place] for place in row] for row in places]
 
 
 def _matrix(

@@ -8,6 +8,7 @@ from rldrill.solutions.answers.kinds import Allowed, answer_kind
 from rldrill.solutions.answers.text import (
     Unreadable,
     read_choice,
+    read_matrix,
     read_table,
     read_vector,
     read_words,
@@ -75,6 +76,20 @@ def test_a_row_for_each_state(text: str) -> None:
 def test_rows_whose_commas_may_be_decimal_or_of_another_length_are_none(text: str) -> None:
     with pytest.raises(Unreadable):
         read_table(text, PAIRS)
+
+
+@pytest.mark.parametrize(
+    "text", ["J11 = 1, J12 = 2, J21 = 3, J22 = 4", "J_{12} = 2; J_{11} = 1; J_{22} = 4; J_{21} = 3",
+             "a_11: 1\na_12: 2\na_21: 3\na_22: 4", "A[1,1] = 1, A[1,2] = 2, A[2,1] = 6/2 = 3, A[2,2] = 4"]
+)  # fmt: skip
+def test_the_entries_of_a_matrix_by_their_indices(text: str) -> None:
+    assert [[each and each.value for each in row] for row in read_matrix(text, (2, 2))] == [[1, 2], [3, 4]]
+
+
+@pytest.mark.parametrize("text", ["J11 = 1, J12 = 2, J21 = 3", "J11 = 1, J11 = 2, J21 = 3, J22 = 4", "x = 5, v = 1"])
+def test_entries_of_a_matrix_that_are_not_all_there(text: str) -> None:
+    with pytest.raises(Unreadable):
+        read_matrix(text, (2, 2))
 
 
 @pytest.mark.parametrize("text", ["50, 30, 20 %", "50; 30; 20%"])
