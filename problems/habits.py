@@ -6,7 +6,7 @@ from typing import Any
 
 from rldrill.problems.exact import is_scalar
 from rldrill.problems.expressions import GREEK
-from rldrill.problems.row_texts import row_of, rows_of, tables_of
+from rldrill.problems.row_texts import row_of, rows_of, run_of, tables_of
 
 Schema = Mapping[str, Any]
 
@@ -22,6 +22,8 @@ ALSO = {
 _PARTED = re.compile(r"[\s,;]")
 #: What a schema only says, or gives as values.
 _SAID = ("title", "description", "default", "examples", "enum", "const")
+#: The fields of a run, which may be written in the order of time.
+_RUN = {"states", "rewards"}
 #: What the schema of an entry has inside which something may have to be settled.
 _INNER = {"properties", "additionalProperties", "enum"}
 
@@ -55,6 +57,8 @@ def _written(schema: Any, parts: Mapping[str, Schema]) -> Any:
     about = {key: whole.pop(key) for key in _SAID if key in whole}
     if schema.get("required") == ["transitions"]:
         return about | {"anyOf": [whole, whole["properties"]["transitions"]]}
+    if {*schema.get("properties", ())} >= _RUN:
+        return about | {"anyOf": [whole, {"type": "string"}]}
     entries = _entries([schema], parts) if schema.get("type") == "array" else []
     if not entries:
         return whole | about
@@ -73,6 +77,8 @@ def _settled(value: Any, schemas: Sequence[Schema], parts: Mapping[str, Schema])
         value = _rows(value, _entries(forms, parts))
     if all(form.get("type") == "array" for form in forms) and not isinstance(value, list | tuple):
         value = [value] if _may_be_an_entry(value, _entries(forms, parts)) else value
+    if isinstance(value, str) and all({*form.get("properties", ())} >= _RUN for form in forms):
+        value = run_of(value) or value
     if isinstance(value, dict):
         return _table(value, forms, parts)
     if isinstance(value, list):
@@ -98,8 +104,10 @@ def _rows(value: Any, entries: Sequence[Schema]) -> Any:
     """The rows, or the tables, of a list that is given as one text; and rows that are given as tables."""
     for entry in entries:
         row = [each.get("description", "") for each in entry.get("prefixItems", ())]
-        if isinstance(value, str):
-            found: Any = rows_of(value, row) if row else tables_of(value, list(entry.get("properties", ())))
+        if isinstance(value, str) and {*entry.get("properties", ())} >= _RUN:
+            found: Any = [run_of(line) for line in value.split("\n") if line.strip()]
+        elif isinstance(value, str):
+            found = rows_of(value, row) if row else tables_of(value, list(entry.get("properties", ())))
         elif row and isinstance(value, list) and all(isinstance(each, dict) for each in value):
             found = [row_of(each, row) for each in value]
         else:

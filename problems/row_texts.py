@@ -7,6 +7,8 @@ from typing import Any
 #: What may part the cells of a line, the strongest first; else blanks do.
 _MARKS = "|\t;,"
 _NUMBER = re.compile(r"[-+−]?\.?[0-9]")
+_REWARD = re.compile(r"[-+−]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:/[0-9]+)?")
+_STEP = re.compile(r"\s*(?:→|->|[,;])\s*|\s+")
 _RULE = re.compile(r"[\s|:+=-]*-[\s|:+=-]*")
 #: What the entries of rows are called elsewhere.
 _ALSO = {
@@ -39,6 +41,22 @@ def row_of(table: Mapping[str, Any], names: Sequence[str]) -> list[Any] | None:
     if sorted(known) != sorted(names) or len(table) != len(names):
         return None
     return [list(table.values())[known.index(name)] for name in names]
+
+
+def run_of(text: str) -> dict[str, list[str]] | None:
+    """A run that is written in the order of time, ``A, 0, B, 1`` or ``A left 0 B``; None if it is anything else.
+
+    Names and numbers must take turns, or two names and a number: states that are called by numbers are not told apart.
+    """
+    words = [word for word in _STEP.split(text.strip(" .\n")) if word]
+    kinds = "".join("r" if _REWARD.fullmatch(word) else "n" for word in words)
+    names = [word for word, kind in zip(words, kinds, strict=True) if kind == "n"]
+    rewards = [word for word, kind in zip(words, kinds, strict=True) if kind == "r"]
+    if re.fullmatch("(?:nr)+n?", kinds):
+        return {"states": names, "rewards": rewards}
+    if re.fullmatch("(?:nnr)+n?n?", kinds):
+        return {"states": names[::2], "actions": names[1::2], "rewards": rewards}
+    return None
 
 
 def called(cells: Sequence[str], names: Sequence[str]) -> list[str]:

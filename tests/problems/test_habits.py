@@ -36,6 +36,14 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
                      "values": {"a": 0, "b": 0}, "gamma": 1}, {"transitions": [["a", "b", 1], ["b", "a", 2]]}),
         ("denavit-hartenberg", {"links": "a alpha d theta\n1 0 0 30°\n0 90° 2 0"},
          {"links": [{"a": 1, "alpha": 0, "d": 0, "theta": "30°"}, {"a": 0, "alpha": "90°", "d": 2, "theta": 0}]}),
+        # runs in the order of time
+        ("td-zero", {"trajectory": "a 1 b -.5 c", "values": {"a": 0, "b": 0, "c": 2}, "alpha": 1, "gamma": 1},
+         {"trajectory": {"states": ["a", "b", "c"], "rewards": [1, "-1/2"]}}),
+        ("sarsa", {"trajectory": "a → l → 1 → b → r", "values": {"a": {"l": 0}, "b": {"r": 2}}, "alpha": 1, "gamma": 1},
+         {"trajectory": {"states": ["a", "b"], "actions": ["l", "r"], "rewards": [1]}}),
+        ("batch-td-and-mc", {"episodes": ["A,0,B,0", {"states": ["B"], "rewards": [1], "times": 6}, "B 0"], "gamma": 1},
+         {"episodes": [{"states": ["A", "B"], "rewards": [0, 0]}, {"states": ["B"], "rewards": [1], "times": 6},
+                       {"states": ["B"], "rewards": [0]}]}),
         # where actions lead as rows alone
         ("bellman-backup", {"dynamics": [["c", "l", "d", 1, 2], ["c", "r", "e", 1, 4]], "values": {"d": 2, "e": 4},
                             "gamma": "1/2", "policy": "random"},
@@ -140,6 +148,20 @@ def test_a_policy_that_is_the_same_everywhere_may_be_written_once(policy: Any, v
     assert rldrill.read(problem).answers() == {"a": dict(zip("AB", values, strict=True))}
 
 
+def test_the_episodes_of_sutton_and_barto_as_they_print_them() -> None:
+    """Example 6.4: batch TD(0) gives A and B 3/4, Monte Carlo gives A 0."""
+    given = {"episodes": "A, 0, B, 0\n" + "B, 1\n" * 6 + "B, 0\n", "gamma": 1}
+    answers = rldrill.read({"family": "batch-td-and-mc", "given": given}).answers()
+    quarters = Fraction(3, 4)
+    assert answers == {"a": {"A": 0, "B": quarters}, "b": {"A": quarters, "B": quarters}}
+
+
+@pytest.mark.parametrize("run", ["1 5 2 15 3", "a -1 b 2,5 c", "a b c", "a 1 2 b", "1 a 2 b", ""])
+def test_what_is_no_run_is_refused(run: str) -> None:
+    with pytest.raises(FileError, match=r"given\.trajectory"):
+        family("td-zero").read({"trajectory": run, "values": {"a": 0, "b": 0}, "alpha": 1, "gamma": 1})
+
+
 def test_the_order_of_the_states_is_told_where_a_policy_rests_on_it() -> None:
     told: list[str] = []
     given = {"mdp": TWO, "gamma": 0.5, "policy": ["go", "stay"]}
@@ -222,6 +244,7 @@ ROWS = [["A", "go", "A", 1, 1]]
         ("td-zero", {"transitions": [{"s": "a", "r": 1, "s'": "b"}], "values": {"a": 0, "b": 0}, "alpha": 1,
                      "gamma": 1}),
         ("denavit-hartenberg", {"links": "a alpha d theta\n1 0 0 30°"}),
+        ("td-zero", {"trajectory": "a 1 b", "values": {"a": 0, "b": 1}, "alpha": 1, "gamma": 1}),
         ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": "go"}),
         ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": [["A", "go"]]}),
         ("policy-value", {"mdp": {"transitions": "A go A 1 1"}, "gamma": "1/2"}),
