@@ -28,6 +28,16 @@ SCHEMA: dict[str, Any] = {
             "description": "The rewards of states, of their actions, or of all that these lead to.",
             "examples": [[1, 0]],
         },
+        **{
+            each: {
+                "type": "array",
+                "default": [],
+                "title": "a list, each a name",
+                "description": f"The names of the {each}, in the order of the arrays; else they are numbers.",
+                "examples": [example],
+            }
+            for each, example in (("states", ["low", "high"]), ("actions", ["wait"]))
+        },
         "terminal": {
             "type": "array",
             "default": [],
@@ -58,15 +68,18 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
     Raises:
         ValueError: the arrays do not fit each other.
     """
-    extra = set(data) - {"P", "R", "terminal", "story"}
+    extra = set(data) - {"P", "R", "states", "actions", "terminal", "story"}
     if extra:
         raise ValueError(f"{min(extra)!r} is not understood beside the arrays P and R; take it out")
     if "R" not in data:
         raise ValueError("R, the array of rewards, is missing beside P; add it")
-    P, R, names = nested(data["P"]), nested(data["R"]), None
+    P, R = nested(data["P"]), nested(data["R"])
+    state, action = ([str(name) for name in several(data.get(each, ()))] for each in ("states", "actions"))
     if isinstance(P, Mapping):
-        names = [str(name) for name in P]
-        P, R = list(P.values()), _by_action(R, names)
+        action = [str(name) for name in P]
+        P = list(P.values())
+    if isinstance(R, Mapping):
+        R = _by_name(R, state) if {*map(str, R)} == {*state} else _by_action(_by_name(R, action))
     shape = _shape(P)
     alone = len(shape) == 2 and shape[0] == shape[1]
     if alone:
@@ -77,17 +90,18 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
     kind = _shape(R)
     if kind not in ((states,), (states, actions), shape):
         raise ValueError(f"R has the shape {_told(kind)}, which does not fit P's {_told(shape)}; give {_SHAPES}")
-    terminal = [str(state) for state in several(data.get("terminal", ()))]
+    terminal = [str(each) for each in several(data.get("terminal", ()))]
+    state, action = _named(state, states, "states"), [ALONE] if alone else _named(action, actions, "actions")
     rows = [
         [
-            str(s),
-            ALONE if alone else names[a] if names else str(a),
-            str(after),
+            state[s],
+            action[a],
+            state[after],
             chance,
             R[s] if len(kind) == 1 else R[s][a] if len(kind) == 2 else R[a][s][after],
         ]
         for s in range(states)
-        if str(s) not in terminal
+        if state[s] not in terminal
         for a in range(actions)
         for after, chance in enumerate(P[a][s])
         if not is_zero(chance)
@@ -132,15 +146,26 @@ def is_square(array: Any) -> bool:
     return len(shape) == 2 and shape[0] == shape[1]
 
 
-def _by_action(R: Any, names: Sequence[str]) -> Any:
-    """Rewards by the names of the actions, as R[s][a] or R[a][s][s′]; others as they are."""
-    if not isinstance(R, Mapping):
-        return R
-    if missing := [name for name in names if name not in map(str, R)]:
-        raise ValueError(f"R: the rewards of {missing[0]!r} are missing; add them")
+def _named(names: list[str], count: int, what: str) -> list[str]:
+    """The names of states or actions; their numbers from 0 where none are given."""
+    if names and (len(names) != count or len({*names}) != count):
+        raise ValueError(f"{what}: {len(names)} names are given for {count} {what}; give each its own")
+    return names or [str(number) for number in range(count)]
+
+
+def _by_name(R: Mapping[Any, Any], names: Sequence[str]) -> list[Any]:
+    """Rewards in the order of the names."""
     rows = {str(name): row for name, row in R.items()}
-    found = [rows[name] for name in names]
-    return [list(row) for row in zip(*found, strict=True)] if len(_shape(found)) == 2 else found
+    if missing := [name for name in names if name not in rows]:
+        raise ValueError(f"R: the rewards of {missing[0]!r} are missing; add them")
+    if unknown := [name for name in rows if name not in names]:
+        raise ValueError(f"R: {unknown[0]!r} is the name of no state and of no action; give states and actions, too")
+    return [rows[name] for name in names]
+
+
+def _by_action(R: list[Any]) -> list[Any]:
+    """Rewards R[a][s] as R[s][a]; R[a][s][s′] as they are."""
+    return [list(row) for row in zip(*R, strict=True)] if len(_shape(R)) == 2 else R
 
 
 def _shape(array: object) -> tuple[int, ...]:

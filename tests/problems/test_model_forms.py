@@ -410,16 +410,43 @@ def test_arrays_as_text_and_by_the_names_of_the_actions(P: Any, R: Any) -> None:
 
 
 @pytest.mark.parametrize(
+    "names",
+    [{"states": ["low", "high"], "actions": ["go", "stay"]}, {"states": ["low", "high"], "actions": ["go", "stay"],
+                                                             "R": {"low": 0, "high": 3}}],
+)  # fmt: skip
+def test_arrays_with_names(names: dict[str, Any]) -> None:
+    P = [[[0, 1], [1, 0]], [["1/2", "1/2"], [0, 1]]]
+    rows = [["low", "go", "high", 1, 0], ["low", "stay", "low", "1/2", 0], ["low", "stay", "high", "1/2", 0],
+            ["high", "go", "low", 1, 3], ["high", "stay", "high", 1, 3]]  # fmt: skip
+    assert Model.model_validate({"P": P, "R": [0, 3]} | names) == process(*rows)
+    by_action = {"P": dict(zip(("go", "stay"), P, strict=True)), "R": {"low": 0, "high": 3}, "states": ["low", "high"]}
+    assert Model.model_validate(by_action) == process(*rows)
+    ends = {"P": P, "R": [0, 3], "terminal": "high"} | names
+    assert Model.model_validate(ends).terminal == ("high",)
+
+
+@pytest.mark.parametrize(
     ("P", "R", "says"),
     [
         ("[[1, 0], [0, 1]", [0, 0], "the brackets of the array '[[1, 0], [0, 1]' do not fit"),
         ("]", [0, 0], "the brackets of the array ']' do not fit"),
         ({"go": [[1, 0], [0, 1]], "stay": [[1, 0], [0, 1]]}, {"go": [0, 0]}, "R: the rewards of 'stay' are missing"),
+        (
+            {"go": [[1, 0], [0, 1]]},
+            {"go": [0, 0], "stay": [0, 0]},
+            "R: 'stay' is the name of no state and of no action",
+        ),
     ],
 )
 def test_arrays_that_do_not_fit(P: Any, R: Any, says: str) -> None:
     with pytest.raises(ValidationError, match=re.escape(says)):
         Model.model_validate({"P": P, "R": R})
+
+
+def test_every_state_of_the_arrays_needs_a_name_of_its_own() -> None:
+    for states in (["A"], ["A", "A"], ["A", "B", "C"]):
+        with pytest.raises(ValidationError, match=f"states: {len(states)} names are given for 2 states"):
+            Model.model_validate({"P": [[[1, 0], [0, 1]]], "R": [0, 0], "states": states})
 
 
 def test_it_is_told_which_index_of_the_rewards_is_which() -> None:
