@@ -7,6 +7,8 @@ from typing import Any
 from rldrill.problems.readings import is_zero, several
 from rldrill.problems.transition_tables import ALONE
 
+#: P[a][s][s′] has three pairs of brackets.
+_DEEPEST = 3
 _TOKEN = re.compile(r"[\[\]]|[^\[\],\s]+")
 _CALL = re.compile(r"(?:\b(?:np|numpy|jnp)\.)?\barray\(|\)")
 _SHAPES = "one number for every state, (S,); for every state and action, (S, A); or shaped like P, (A, S, S)"
@@ -127,7 +129,7 @@ def nested(array: Any) -> Any:
             open_.append([])
         elif token == "]":
             inner = open_.pop()
-            if not open_:
+            if not open_ or len(open_) > _DEEPEST:
                 break
             open_[-1].append(inner)
         else:

@@ -9,7 +9,7 @@ _MARKS = "|\t;,"
 _NUMBER = re.compile(r"[-+−]?\.?[0-9]")
 _REWARD = re.compile(r"[-+−]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:/[0-9]+)?")
 _STEP = re.compile(r"\s*(?:→|->|[,;])\s*|\s+")
-_RULE = re.compile(r"[\s|:+=-]*-[\s|:+=-]*")
+_RULE = re.compile(r"(?=[^-]*-)[\s|:+=-]+")
 #: What the entries of rows are called elsewhere.
 _ALSO = {
     "s": "state", "from": "state", "a": "action", "s'": "next", "s′": "next", "next_state": "next", "to": "next",

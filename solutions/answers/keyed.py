@@ -107,7 +107,7 @@ def _nested(body: Source, asked: Asked[Key]) -> list[_Item] | None:
 def _rows_under_heads(body: Source, inner: dict[str, list[str]], outer: int) -> list[_Item] | None:
     """The items of rows that have a head each, and as many values as belong to it: ``cool: -2, 3; warm: 4, 6``."""
     found: list[_Item] = []
-    for row in filled(body.split(";\n")):
+    for row in filled(body.split(";\n")) if inner and body.has(",") else []:
         begun = _HEAD.match(row.text)
         hits = matches(begun[1], [(each, each) for each in inner]) if begun else []
         values = row.part(begun.end(), len(row.text)) if begun else row

@@ -3,6 +3,7 @@
 import pytest
 from flint import fmpq
 
+from promptness import at_once
 from rldrill.problems.parts import Policy
 from rldrill.solutions.answers.kinds import Allowed, answer_kind
 from rldrill.solutions.answers.text import (
@@ -127,3 +128,9 @@ def test_words_around_an_option(text: str) -> None:
 def test_yes_and_no_in_other_words() -> None:
     assert [read_yes_no(text) for text in ("correct", "wahr", "vrai", "✓", "да")] == [True] * 5
     assert [read_yes_no(text) for text in ("incorrect", "falsch", "faux", "✗", "нет")] == [False] * 5
+
+
+@pytest.mark.parametrize("text", ["0.2" + " " * 1900 + "x", "always " * 280, "0.2" + " (" * 900, "in all " * 280])
+def test_what_may_be_said_of_all_takes_no_time_to_look_for(text: str) -> None:
+    with at_once(), pytest.raises(Unreadable):
+        read_table(text, STATES)

@@ -430,6 +430,7 @@ def test_arrays_with_names(names: dict[str, Any]) -> None:
     [
         ("[[1, 0], [0, 1]", [0, 0], "the brackets of the array '[[1, 0], [0, 1]' do not fit"),
         ("]", [0, 0], "the brackets of the array ']' do not fit"),
+        ("[" * 5000 + "1" + "]" * 5000, [0], "the brackets of the array '[[[[[[[[[[[[[[[[[[[[' do not fit"),
         ({"go": [[1, 0], [0, 1]], "stay": [[1, 0], [0, 1]]}, {"go": [0, 0]}, "R: the rewards of 'stay' are missing"),
         (
             {"go": [[1, 0], [0, 1]]},
