@@ -85,6 +85,9 @@ def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: boo
         told = "must be a list in brackets, not a table"
     if first["type"] == "tuple_type" and (row := _row(schema, place)):
         told = f"must be a list {row}, in brackets of its own"
+    elif first["type"] == "tuple_type" and (names := _known(schema, [*place, 0])):
+        fields = ", ".join(f"{each} = …" for each in names)
+        told = f"must be a list, in which each entry is a table of its own: {{{fields}}}"
     elif first["type"] == "tuple_type" and (row := _row(schema, [*place, 0])):
         told = f"must be a list, in which each entry is a list {row}"
     elif first["type"] == "named_tuple_type":

@@ -21,7 +21,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import Logarithm, Parameter
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.habits import settled
+from rldrill.problems.habits import settled, written
 from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part, lettered
 from rldrill.problems.readings import Note
@@ -238,6 +238,10 @@ class Family(Struct, frozen=True, dict=True):
     def schema(self) -> dict[str, Any]:
         """The JSON Schema of what a file gives; it is made once, so nobody may change it."""
         return self._schema
+
+    def written_schema(self) -> dict[str, Any]:
+        """The JSON Schema of what a file may hold, with the short forms that are read, too."""
+        return written(self._schema)
 
     @cached_property
     def _schema(self) -> dict[str, Any]:

@@ -403,9 +403,22 @@ class _Parser:
 
     def _call(self, name: str, token: _Token) -> Node:
         self._angles += name in _OF_ANGLES
+        power = self._power_of(name)
         node = self._operation(name, token, *self._arguments(name, FUNCTIONS[name]))
         self._angles -= name in _OF_ANGLES
-        return node
+        return self._operation("^", token, node, power) if power else node
+
+    def _power_of(self, name: str) -> Node | None:
+        """The power that stands between a function of angles and what it is taken of: sin²(θ), sin^2 θ."""
+        raised = self._ahead("raised")
+        ahead = self._ahead("^", "number") or self._ahead("^", "{", "number", "}") or raised
+        digits = "".join(each.text for each in ahead).translate(_RAISED).strip("^{}")
+        if name not in _OF_ANGLES or not re.fullmatch("[2-9]", digits):
+            return None
+        if self._tokens[self._next + len(ahead)].kind not in ("name", *_BRACKETS):
+            return None
+        self._next += len(ahead)
+        return Numeral(Fraction(int(digits)), digits, ahead[-1].at)
 
     def _arguments(self, name: str, most: int) -> list[Node]:
         """What a function is taken of."""
@@ -433,6 +446,8 @@ class _Parser:
             raise self._error(f"log is the natural logarithm here; write ln(…)/ln({base}) for that to the base {base}.")
         square = isinstance(argument, Numeral) and argument.value == isqrt(int(argument.value)) ** 2  # √9/16
         line = () if name == "sqrt" and not square else ("/",)
+        if name in _OF_ANGLES and self._token.text.lower() in _OF_ANGLES:
+            return argument  # sin θ cos θ
         unclear = ("^", "raised", "%", "name", "(", "{", "√", *_ROOTS, *_NUMBERS, *line)
         if self._before.kind in (*_NUMBERS, "name") and self._token.kind in unclear:
             raise self._error(f"What {name} is taken of may be read in two ways; put it in brackets: {name}(…).")

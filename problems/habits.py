@@ -6,6 +6,7 @@ from typing import Any
 
 from rldrill.problems.exact import is_scalar
 from rldrill.problems.expressions import GREEK
+from rldrill.problems.row_texts import row_of, rows_of, run_of, tables_of
 
 Schema = Mapping[str, Any]
 
@@ -14,10 +15,15 @@ ALSO = {
     "discount": "gamma", "discount_factor": "gamma", "step_size": "alpha", "learning_rate": "alpha", "lambda": "lam",
     "λ": "lam", "lambda_": "lam", "behavior": "behaviour", "centers": "centres", "discretization": "discretisation",
     "Qf": "Q_T", "Q_f": "Q_T", "QT": "Q_T", "Q_N": "Q_T", "noise": "slip", "observation": "measurement",
-    "loglik": "log_likelihood", "logL": "log_likelihood", "log_lik": "log_likelihood",
+    "iterations": "sweeps", "k": "sweeps", "V": "values", "Q": "values", "V0": "start", "episode": "trajectory",
+    "living_reward": "step", "loglik": "log_likelihood", "logL": "log_likelihood", "log_lik": "log_likelihood",
 } | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
 #: What stands between the entries of a list that is given as one text; such a text is none of its entries.
 _PARTED = re.compile(r"[\s,;]")
+#: What a schema only says, or gives as values.
+_SAID = ("title", "description", "default", "examples", "enum", "const")
+#: The fields of a run, which may be written in the order of time.
+_RUN = {"states", "rewards"}
 #: What the schema of an entry has inside which something may have to be settled.
 _INNER = {"properties", "additionalProperties", "enum"}
 
@@ -32,12 +38,47 @@ def settled(given: Any, schema: Schema) -> Any:
     return _settled(given, [schema], schema.get("$defs", {}))
 
 
+def written(schema: Schema) -> dict[str, Any]:
+    """The JSON Schema of what files may hold as ``settled`` reads it: an entry for a list of one, a text for rows."""
+    return _written(schema, schema.get("$defs", {}))
+
+
+def _written(schema: Any, parts: Mapping[str, Schema]) -> Any:
+    if isinstance(schema, list):
+        return [_written(each, parts) for each in schema]
+    if not isinstance(schema, dict):
+        return schema
+    whole = {}
+    for key, value in schema.items():
+        if key in ("properties", "$defs"):
+            whole[key] = {name: _written(each, parts) for name, each in value.items()}
+        else:
+            whole[key] = value if key in _SAID else _written(value, parts)
+    about = {key: whole.pop(key) for key in _SAID if key in whole}
+    if schema.get("required") == ["transitions"]:
+        return about | {"anyOf": [whole, whole["properties"]["transitions"]]}
+    if {*schema.get("properties", ())} >= _RUN:
+        return about | {"anyOf": [whole, {"type": "string"}]}
+    entries = _entries([schema], parts) if schema.get("type") == "array" else []
+    if not entries:
+        return whole | about
+    rows = any("prefixItems" in entry or "properties" in entry for entry in entries)
+    alone = [] if any(entry.get("type") == "array" for entry in entries) else [whole["items"]]
+    if any("prefixItems" in entry for entry in entries):
+        whole["items"] = {"anyOf": [whole["items"], {"type": "object"}]}
+    return about | {"anyOf": [whole, *alone, *([{"type": "string"}] if rows else [])]}
+
+
 def _settled(value: Any, schemas: Sequence[Schema], parts: Mapping[str, Schema]) -> Any:
     forms = [form for schema in schemas for form in _forms(schema, parts)]
     if not forms:
         return value
+    if all(form.get("type") == "array" for form in forms):
+        value = _rows(value, _entries(forms, parts))
     if all(form.get("type") == "array" for form in forms) and not isinstance(value, list | tuple):
         value = [value] if _may_be_an_entry(value, _entries(forms, parts)) else value
+    if isinstance(value, str) and all({*form.get("properties", ())} >= _RUN for form in forms):
+        value = run_of(value) or value
     if isinstance(value, dict):
         return _table(value, forms, parts)
     if isinstance(value, list):
@@ -57,6 +98,23 @@ def _forms(schema: Schema, parts: Mapping[str, Schema]) -> Iterator[Schema]:
         yield from _forms(each, parts)
     if not inner and schema.get("type") != "null":
         yield schema
+
+
+def _rows(value: Any, entries: Sequence[Schema]) -> Any:
+    """The rows, or the tables, of a list that is given as one text; and rows that are given as tables."""
+    for entry in entries:
+        row = [each.get("description", "") for each in entry.get("prefixItems", ())]
+        if isinstance(value, str) and {*entry.get("properties", ())} >= _RUN:
+            found: Any = [run_of(line) for line in value.split("\n") if line.strip()]
+        elif isinstance(value, str):
+            found = rows_of(value, row) if row else tables_of(value, list(entry.get("properties", ())))
+        elif row and isinstance(value, list) and all(isinstance(each, dict) for each in value):
+            found = [row_of(each, row) for each in value]
+        else:
+            continue
+        if found and all(found):
+            return found
+    return value
 
 
 def _entries(forms: Sequence[Schema], parts: Mapping[str, Schema]) -> list[Schema]:

@@ -7,16 +7,17 @@ from rldrill.problems import arrays, gymnasium
 from rldrill.problems.exact import is_scalar, read_scalar
 from rldrill.problems.grids import read_grid
 from rldrill.problems.readings import Note, several
+from rldrill.problems.row_texts import rows_of
 from rldrill.problems.transition_tables import ALONE, read_markdown_table, read_records, read_transition_table
 
 _ROW = "[state, action, next, probability, reward]"
 
-_REWARDS_SCHEMA = {
+_REWARDS_SCHEMA: dict[str, Any] = {
     "type": "object",
     "description": "Transitions without rewards, and beside them the rewards of states or of their actions.",
     "properties": {
         "transitions": {
-            "type": "array",
+            "type": ["array", "object", "string"],
             "title": "a list, each [state, action, next, probability], or [state, next, probability] without actions",
             "description": "The transitions; those of a state and action have probabilities that sum to 1.",
             "examples": [[["low", "wait", "low", 1]]],
@@ -79,7 +80,7 @@ _FILE_SCHEMA = {
 SCHEMAS = (_ALONE_SCHEMA, _REWARDS_SCHEMA, arrays.SCHEMA, gymnasium.TABLE_SCHEMA, gymnasium.SCHEMA, _FILE_SCHEMA)
 
 
-def read_form(data: object, note: Note) -> object:
+def read_form(data: object, note: Note) -> Any:
     """The transitions of a model that is given in another form; anything else as it is.
 
     Args:
@@ -89,6 +90,7 @@ def read_form(data: object, note: Note) -> object:
     Raises:
         ValueError: the form is known, but does not fit.
     """
+    data = read_dynamics(data)
     if not isinstance(data, dict):
         return data
     if "file" in data:
@@ -104,25 +106,74 @@ def read_form(data: object, note: Note) -> object:
     return _read_transitions(data, note) if "transitions" in data else data
 
 
+def read_dynamics(data: object) -> object:
+    """What is given of the transitions: rows or a table alone, tables inside tables by name; else as it is.
+
+    Raises:
+        ValueError: it is a table that does not fit.
+    """
+    if isinstance(data, list) or (isinstance(data, str) and "\n" in data.strip()):
+        data = {"transitions": data}
+    if not isinstance(data, dict):
+        return data
+    rows = data.get("transitions")
+    if isinstance(rows, Mapping):
+        return data | {"transitions": _opened(rows)}
+    if isinstance(rows, str) or (isinstance(rows, list) and rows and all(isinstance(row, Mapping) for row in rows)):
+        read = _read_table(rows)
+        return {name: field for name, field in read.items() if field or name == "transitions"} | {
+            name: field for name, field in data.items() if name != "transitions"
+        }
+    return data
+
+
+def _opened(table: Mapping[Any, Any]) -> list[list[Any]]:
+    """The rows of tables inside tables: by state, action and next state a probability, or it with the reward.
+
+    Where an action leads for sure its next state is enough; where there are no actions the next states come first.
+    """
+    rows: list[list[Any]] = []
+    for state, inner in table.items():
+        for name, leaf in inner.items() if isinstance(inner, Mapping) else [(None, inner)]:
+            if isinstance(leaf, Mapping):
+                rows += [[state, name, after, *_chance(each)] for after, each in leaf.items()]
+            elif name is not None and isinstance(leaf, str) and not is_scalar(leaf):
+                rows.append([state, name, leaf, 1])
+            elif name is not None:
+                rows.append([state, name, *_chance(leaf)])
+            else:
+                raise ValueError(f"transitions: {state!r} must have a table of its actions")
+    return rows
+
+
+def _chance(leaf: object) -> list[Any]:
+    return list(leaf) if isinstance(leaf, list | tuple) else [leaf]
+
+
 def _read_P(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     P = data["P"]
-    if isinstance(P, Mapping):
-        return gymnasium.read_table(data)
+    if isinstance(P, Mapping) and not all(map(arrays.is_square, P.values())):
+        if any(
+            not isinstance(row, Mapping) or any(isinstance(leaf, list) for leaf in row.values()) for row in P.values()
+        ):
+            return gymnasium.read_table(data)
+        rest = {("rewards" if name == "R" else name): field for name, field in data.items() if name != "P"}
+        return read_form(rest | {"transitions": _opened(P)}, note)
     model = arrays.read_arrays(data)
-    if isinstance(P[0][0], list | tuple) and len(P) == len(P[0]):  # the other order would fit, too
-        note("took P for P[action][state][next], as pymdptoolbox has it")
+    P = arrays.nested(P)
+    if isinstance(P, list | tuple) and isinstance(P[0][0], list | tuple) and len(P) == len(P[0]):
+        R = " and R for R[state][action]" if arrays.is_square(data["R"]) else ""
+        note(f"took P for P[action][state][next]{R}, as pymdptoolbox has it")  # the other order would fit, too
     return model
 
 
 def _read_transitions(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
-    """Transitions as they are, as a table with a header, or of a process without actions.
+    """Transitions as they are, or of a process without actions.
 
     The rows of such a process are ``[state, next, probability, reward]``.
     """
     rows = data["transitions"]
     given = dict(data)
-    if isinstance(rows, str) or (isinstance(rows, list) and rows and all(isinstance(row, Mapping) for row in rows)):
-        return _read_table(rows) | {name: field for name, field in given.items() if name != "transitions"}
     if not isinstance(rows, list | tuple) or not any(isinstance(row, list) and len(row) == 4 for row in rows):
         return given
     states = {str(row[0]) for row in rows if isinstance(row, list) and row} | {
@@ -141,12 +192,23 @@ def _read_transitions(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
 
 
 def _read_table(rows: Any) -> dict[str, Any]:
+    if isinstance(rows, str) and (bare := _bare(rows)):
+        return {"transitions": bare}
     try:
         if not isinstance(rows, str):
             return read_records(rows)
         return read_markdown_table(rows) if rows.lstrip().startswith("|") else read_transition_table(rows.strip("\n"))
     except ValueError as error:
         raise ValueError(f"transitions: {error}") from None
+
+
+def _bare(text: str) -> list[list[str]] | None:
+    """Rows without a header: state, action, next state, probability, reward; or without the action."""
+    for width in (5, 4):
+        rows = rows_of(text, [""] * width)
+        if rows and all(is_scalar(each) for row in rows for each in row[-2:]):
+            return rows
+    return None
 
 
 def _read_rewards(data: Mapping[str, Any]) -> dict[str, Any]:

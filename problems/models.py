@@ -31,10 +31,11 @@ from rldrill.problems.exact import (
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
-from rldrill.problems.model_forms import SCHEMAS, read_form
+from rldrill.problems.model_forms import SCHEMAS, read_dynamics, read_form
 from rldrill.problems.names import read_name
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
+from rldrill.problems.policy_forms import by_states
 from rldrill.problems.readings import Note, distribution, note_of, told
 from rldrill.problems.recurrence import end_components
 from rldrill.problems.transition_tables import ALONE
@@ -80,6 +81,11 @@ class Dynamics(Givens):
         max_length=_MOST_TRANSITIONS,
         description="The transitions; those of a state and action have probabilities that sum to 1.",
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _tables(cls, data: object) -> object:
+        return read_dynamics(data)
 
     @field_validator("transitions")
     @classmethod
@@ -161,7 +167,12 @@ class Model(Dynamics):
             return terminal
         acting = {row.state for row in rows}
         found = tuple(dict.fromkeys(row.next for row in rows if row.next not in acting))
+        meant = {state.casefold(): state for state in acting}
         for state in found:
+            if alike := meant.get(state.casefold()):
+                raise ValueError(
+                    f"{state!r} has no action, but {alike!r} has; write its name alike, or list {state!r} as terminal"
+                )
             note_of(info)(f"took {state!r}, which has no action, for a terminal state")
         return found
 
@@ -304,9 +315,13 @@ def read_policy(value: object, info: ValidationInfo) -> object:
     """Let a policy be ``uniform``, and one that is the same in every state be written once: ``"fast"``.
 
     One action is that of every state that has it; so are probabilities of actions: ``{fast = 0.5, slow = 0.5}``.
+    What else people write for a policy is in ``policy_forms``.
     """
     known = next((actions for name, field in info.data.items() if (actions := _choices(name, field))), None)
-    if not known or isinstance(value, list | tuple):
+    if not known:
+        return value
+    value = by_states(value, {state: [*row] for state, row in known.items()}, note_of(info))
+    if isinstance(value, list | tuple):
         return value
     if not isinstance(value, dict) and value in UNIFORM:
         return _uniform(known)
@@ -333,7 +348,10 @@ PolicyField = Annotated[
     Named[OpenDistributionField],
     BeforeValidator(read_policy),
     WithJsonSchema(
-        {"type": "object", "title": "a table: for every state its action, or the probabilities of its actions"}
+        {
+            "type": ["object", "array", "string"],
+            "title": "a table: for every state its action, or the probabilities of its actions",
+        }
     ),
 ]
 

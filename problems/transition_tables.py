@@ -12,22 +12,38 @@ from rldrill.problems.episodes import Outcome, model
 ALONE = "step"
 #: What a column may be called, in small letters without blanks and underscores.
 _COLUMNS = {
-    "state": ("state", "s", "from", "fromstate", "currentstate", "source", "start"),
-    "action": ("action", "a", "act"),
-    "next": ("next", "nextstate", "s'", "s′", "s2", "sp", "sprime", "newstate", "successor", "to", "tostate", "target"),
+    "state": ("state", "s", "from", "fromstate", "currentstate", "source", "start", "zustand", "von"),
+    "action": ("action", "a", "act", "aktion"),
+    "next": (
+        "next",
+        "nextstate",
+        "s'",
+        "s′",
+        "s2",
+        "sp",
+        "sprime",
+        "newstate",
+        "successor",
+        "to",
+        "tostate",
+        "target",
+        "folgezustand",
+        "nach",
+    ),
     "probability": (
         "probability",
         "prob",
         "p",
         "pr",
         "chance",
+        "wahrscheinlichkeit",
         "transitionprobability",
         "t",
         "p(s'|s,a)",
         "p(s'|s)",
         "t(s,a,s')",
     ),
-    "reward": ("reward", "r", "rewards", "rew", "r(s,a,s')", "r(s,a)", "r(s)"),
+    "reward": ("reward", "r", "rewards", "rew", "r(s,a,s')", "r(s,a)", "r(s)", "belohnung"),
     "end": ("end", "ends", "done", "terminal", "terminated", "isterminal"),
 }
 _NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spelling in spellings}
@@ -47,6 +63,11 @@ def read_transition_table(text: str) -> dict[str, Any]:
     lines = text.splitlines()
     begin = next((number for number, line in enumerate(lines) if line.strip()), 0)
     if lines and re.fullmatch(r"sep=.", lines[begin].strip(), re.IGNORECASE):
+        begin += 1
+    while begin < len(lines) - 1 and lines[begin].lstrip()[:1] in ("", "#"):  # a remark, or numpy's header
+        if len(cells := re.split("[,;\t]", lines[begin].lstrip(" #"))) > 2 and {*map(_plain, cells)} <= {*_NAMED}:
+            lines[begin] = lines[begin].lstrip(" #")
+            break
         begin += 1
     header = re.sub(r"\([^()]*\)", "", lines[begin]) if len(lines) > begin else ""  # R(s,a) is one column
     parted = max(",;\t", key=header.count)
@@ -83,10 +104,15 @@ def _table(lines: Iterable[tuple[int, list[str]]], *, commas: bool) -> dict[str,
     header, *rows = [(number, row) for number, row in lines if any(cell.strip() for cell in row)] or [(1, [])]
     columns = _columns(header[1])
     read = []
+    above: dict[str, str] = {}
     for number, row in rows:
         if len(row) != len(header[1]):
             raise ValueError(f"line {number} has {len(row)} entries, the header has {len(header[1])}; make them equal")
         cells = {column: row[place].strip() for place, column in columns.items()}
+        for column in ("state", "action"):  # cells that a spreadsheet joined, and emptied but for the first
+            if cells.get(column) == "" and (column == "state" or cells["state"] == above.get("state")):
+                cells[column] = above.get(column, "")
+        above = cells
         for column in ("probability", "reward"):
             if commas and _COMMA.fullmatch(cells.get(column, "")):
                 cells[column] = cells[column].replace(",", ".")
@@ -108,13 +134,21 @@ def read_records(records: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     return _model(read)
 
 
+def _plain(name: str) -> str:
+    return re.sub(r"[\s_]", "", name).lower()
+
+
 def _columns(header: list[str]) -> dict[int, str]:
     """What every column holds, by its place; a column without a name is passed over, as data frames write one."""
     found: dict[int, str] = {}
     for place, name in enumerate(header):
-        plain = re.sub(r"[\s_]", "", name).lower()
+        plain = _plain(name)
         if not plain and place == 0:
             continue
+        if plain in ("cost", "costs", "kosten"):
+            raise ValueError(
+                f"the column {name[:40]!r} holds costs; turn their signs, and call it reward: -5 for a cost of 5"
+            )
         if plain not in _NAMED:
             known = ", ".join(_COLUMNS)
             raise ValueError(f"the column {name[:40]!r} is not known; call the columns {known}, or leave it out")

@@ -90,6 +90,8 @@ def with_files(given: object, folder: Path) -> object:
         return given
     read: dict[str, Any] = {}
     for key, value in given.items():
+        if key == "mdp" and isinstance(value, str) and value.lower().endswith(tuple(MODEL_SUFFIXES)):
+            value = {"file": value}
         if not (isinstance(value, dict) and "file" in value):
             read[key] = value
             continue

@@ -22,7 +22,7 @@ def schema_of(name: str) -> dict[str, Any]:
         UsageError: there is no such family.
     """
     wanted = family(name)
-    given = dict(wanted.schema())
+    given = wanted.written_schema()
     hoisted = {"$defs": given.pop("$defs")} if "$defs" in given else {}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -30,7 +30,7 @@ def command(
     if json:
         from rldrill.commands.output import print_json
 
-        print_json(found.schema())
+        print_json(found.written_schema())
         return
     from rldrill.problems.fields import fields
     from rldrill.render.terminal import console, words

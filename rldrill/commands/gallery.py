@@ -28,4 +28,5 @@ def command(
     if output.exists() and not output.is_dir():
         raise UsageError(f"{output} is a file; give the name of a folder, such as site/.")
     paths = list(gallery(output, headers(names or ())))
-    typer.echo(f"{paths[-1]} and {len(paths) - 1} pages beside it")
+    pages = "1 page" if len(paths) == 2 else f"{len(paths) - 1} pages"
+    typer.echo(f"{paths[-1]} and {pages} beside it")

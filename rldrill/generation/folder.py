@@ -45,6 +45,8 @@ class Folder:
         self._path, self._ending = path, ending
         if ending == "parquet":
             _pyarrow()
+        if path.exists() and not path.is_dir():
+            raise UsageError(f"{path} is no folder; give the name of one, such as problems/.")
         path.mkdir(parents=True, exist_ok=True)
         own = path / _ABOUT
         told = json.dumps({"rldrill": __version__, **about}, indent=1) + "\n"

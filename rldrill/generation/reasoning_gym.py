@@ -17,12 +17,14 @@ from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
-#: (a) 3/4, perhaps in a list, bold, or in the tags that models are told to put around an answer.
+#: (a) 3/4, perhaps in a list, bold, behind "the answer is", or in the tags that models put around an answer.
 _LINE = re.compile(
-    r"^[^\S\n]*(?:<answer>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?(?:part\s+)?\(?([a-z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
+    r"^[^\S\n]*(?:<answer>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?"
+    r"(?:(?:the[^\S\n]++)?(?:final[^\S\n]++)?answer(?:[^\S\n]++is)?[^\S\n]*+:?+(?:\*\*)?+[^\S\n]*+)?(?:part\s+)?\(?([a-z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
     re.MULTILINE | re.IGNORECASE,
 )
 _TAGS = ("</answer>", "**")
+_BOXED = re.compile(r"\\boxed\s*\{((?:[^{}]|\{[^{}]*\})*)\}")
 
 
 @dataclass
@@ -50,6 +52,7 @@ class Config:
             AssertionError: they do not; reasoning-gym expects this class.
         """
         assert self.split in [split.value for split in Split], f"split: {self.split!r} is neither train nor held-out"
+        self.names = (self.names,) if isinstance(self.names, str) else self.names
         try:
             lots(self.names, self.level, 1, 0)
         except UsageError as error:
@@ -99,6 +102,7 @@ class Dataset(ProceduralDataset):  # type: ignore[misc, unused-ignore]
         """
         if not answer:
             return 0.0
+        answer = _BOXED.sub(lambda boxed: boxed[1], answer)
         exercise = load(entry["metadata"]["id"])
         known = {part.label for part in exercise.parts}
         texts = {label.lower(): _bare(text) for label, text in _LINE.findall(answer) if label.lower() in known}

@@ -62,5 +62,7 @@ class Keeper:
     def _tell(self, error: Exception) -> None:
         if not self.trouble:
             self.trouble = True
-            why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+            why = str(error)
+            if isinstance(error, OSError) and error.strerror:
+                why = f"{error.filename}: {error.strerror.lower()}" if error.filename else error.strerror
             self._say(f"Your answers are not kept: {why.rstrip('.')}.")

@@ -12,7 +12,7 @@ from rldrill.problems.spelling import Source, quoted
 from rldrill.solutions.answers.lists import ended, filled, unwrapped
 from rldrill.solutions.answers.names import Key, is_end, is_known, keys_named, listed, matches, shown, the_key
 
-_ARROW = re.compile(r"->|→|↦|:=|[:=←]")
+_ARROW = re.compile(r"->|→|↦|:=|<-(?=\s)|[:=←]")
 _CELL = re.compile(r"r(\d+)c(\d+)")
 _LETTER = re.compile(r"[^\W\d_]['*]?\s*=")
 _ZERO = re.compile(r"[-+]?(?:0+\.?0*|\.0+)")
@@ -22,8 +22,14 @@ _QUOTES = "'\""
 #: What parts an item from the next one, beside a comma: cool: fast and warm: slow.
 _AND = re.compile(r"(?:\s+(?:and|und)|\s*&)\s*$")
 _HEAD = re.compile(r"([^:=()\[\]{}]+?)\s*(?:(?::|=|->|→|↦)\s*|(?=[(\[{]))(?=\S)")
+#: Values behind commas that are no decimal commas, having a blank behind them.
+_ROW = re.compile(r"[^,:=\[\](){}]+(?:,\s[^,:=\[\](){}]+)+")
 #: A number behind one of these is part of a working, not the name of what is typed next.
 _OPERATORS = tuple("+-*/^(·=")
+#: All keys that were not named before: drift: 2/3, others: 1/6.
+_REST = re.compile(
+    r"(?:all\s+)?(?:the\s+)?(?:others?|rest|remaining)|(?:everything|all)\s+else|else|otherwise", re.IGNORECASE
+)
 _MOST = 200
 _FORMS = 30
 
@@ -91,11 +97,28 @@ def _nested(body: Source, asked: Asked[Key]) -> list[_Item] | None:
         inner: dict[str, list[str]] = {}
         for key in pairs:
             inner.setdefault(key[outer], []).append(key[1 - outer])
+        if listed_under := _rows_under_heads(body, inner, outer):
+            return listed_under
         found = list(_under_heads(pieces, inner, outer))
         whole = [item for item in found if item]
         if whole and len(whole) == len(found):
             return whole
     return None
+
+
+def _rows_under_heads(body: Source, inner: dict[str, list[str]], outer: int) -> list[_Item] | None:
+    """The items of rows that have a head each, and as many values as belong to it: ``cool: -2, 3; warm: 4, 6``."""
+    found: list[_Item] = []
+    for row in filled(body.split(";\n")) if inner and body.has(",") else []:
+        begun = _HEAD.match(row.text)
+        hits = matches(begun[1], [(each, each) for each in inner]) if begun else []
+        values = row.part(begun.end(), len(row.text)) if begun else row
+        entries = values.split(",") if _ROW.fullmatch(values.text) else []
+        if not hits or len(entries) != len(inner[hits[0]]):
+            return None
+        halves = [(hits[0], name) if outer == 0 else (name, hits[0]) for name in inner[hits[0]]]
+        found += [_Item(" ".join(key), entry, row) for key, entry in zip(halves, entries, strict=True)]
+    return found
 
 
 def _under_heads(pieces: Sequence[Source], inner: dict[str, list[str]], outer: int) -> Iterator[_Item | None]:
@@ -169,7 +192,7 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
     alike: list[str] = []  # up = down = 3/8
     for index, _ in piece.outside():
         mark = _ARROW.match(piece.text, index)
-        if mark is None or index < begun or (mark[0] == "←" and not asked.numbers):
+        if mark is None or index < begun or (mark[0] in ("←", "<-") and not asked.numbers):
             continue
         before = piece.text[begun:index].rstrip()
         named = re.search(r"\w", before) or (before.strip() and _known(before.strip(), asked))
@@ -272,6 +295,10 @@ def _opened(item: _Item, asked: Asked[Key]) -> Iterator[_Item]:
 def _by_key(items: list[_Item], asked: Asked[Key]) -> dict[Key, Source]:
     """What is typed for each key, in the keys' order."""
     found: dict[Key, Source] = {}
+    *named, last = items
+    if named and _REST.fullmatch(last.name) and not is_known(last.name, asked.keys, asked.ends):
+        found = _by_key(named, asked)
+        return {key: found.get(key, last.value) for key in asked.keys}
     for item in sorted(items, key=lambda item: item.shared):
         key = the_key(item.name, asked.keys, asked.ends, item.whole)
         if key is None:

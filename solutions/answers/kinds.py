@@ -22,6 +22,7 @@ from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
+    named_alone,
     read_choice,
     read_matrix,
     read_number,
@@ -291,10 +292,10 @@ class PolicyAnswer(Answer[parts.Policy]):
             return dict(read_words(text, *asked))
         except Unreadable:
             called = _CALLED.match(text)
-            if self.kind.of or called is None:
+            chosen = named_alone(text[called.end() :] if called else text)
+            if self.kind.of or chosen == text:
                 raise
-            chosen = text[called.end() :]
-        return dict(read_words(chosen, *asked))  # whatever the choice is called: a₇ = blue
+        return dict(read_words(chosen, *asked))  # whatever the choice is called: a₇ = blue, the blue arm
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return {state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()}

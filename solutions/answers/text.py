@@ -12,6 +12,7 @@ from rldrill.problems.spelling import Source, Unreadable, quoted, spelled
 from rldrill.solutions.answers.arithmetic import Arithmetic
 from rldrill.solutions.answers.keyed import Asked, by_name, in_order
 from rldrill.solutions.answers.lists import (
+    ended,
     entries_of,
     filled,
     left_out,
@@ -37,6 +38,7 @@ from rldrill.solutions.answers.names import (
 from rldrill.solutions.answers.numbers import Reading, number, plain
 from rldrill.solutions.answers.pasted import in_signs, keyed_list
 from rldrill.solutions.answers.rule import equivalent, is_right
+from rldrill.solutions.answers.shared import for_all
 from rldrill.solutions.answers.source import LONGEST, clean
 from rldrill.solutions.exact import NotReal, sign
 from rldrill.solutions.exact import parameters as parameters_of
@@ -44,6 +46,7 @@ from rldrill.solutions.exact import parameters as parameters_of
 __all__ = [
     "Reading",
     "Unreadable",
+    "named_alone",
     "read_choice",
     "read_matrix",
     "read_number",
@@ -57,24 +60,32 @@ Read = TypeVar("Read")
 
 # x · V(s) · V^π(s) · R_0 · V_{k+1}(s) · Q̂(s, a) · ∂J/∂θ₁
 _NAME = rf"(?:[∂d]\w*/[∂d])?[^\W\d_](?:[\w '^*⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⊤{MARKS}]|\{{[^{{}}=]*\}}|\([^()=]*\)|\[[^\[\]=]*\])*"
-_LABEL = re.compile(rf"(['\"]?)({_NAME})\1\s*(?:[:←]|=(?!=))")
+_LABEL = re.compile(rf"(['\"]?)({_NAME})\1\s*(?:[:←]|<-(?=\s)|=(?!=))")
 _LEFT_SIDE = re.compile(rf"(?:{_NAME})?=(?!=)")
 _ONLY_NAME = re.compile(_NAME)
 _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)|∂[^\s=:,;]*\s*=(?!=)")
-_YES = frozenset({"yes", "yep", "y", "true", "t", "ja", "j", "oui", "sí", "sì", "si", "sim"})
-_NO = frozenset({"no", "nope", "n", "false", "f", "nein", "non", "não"})
+_YES = frozenset(
+    {"yes", "yep", "y", "true", "t", "correct", "ja", "j", "wahr", "oui", "vrai", "sí", "sì", "si", "sim", "да", *"✓✔☑"}
+)
+_NO = frozenset({"no", "nope", "n", "false", "f", "incorrect", "nein", "falsch", "non", "faux", "não", "нет", *"✗✘☒"})
 #: What parts yes or no from the reason for it.
 _WHY = re.compile(r"\s*(?:[,;:(–—]|\.(?!\w))\s*|\s+(?:-|as)\s+")
 #: The reason behind an answer: left, because it earns more.
 _BECAUSE = re.compile(r"[\s,;:.(–—-]+(?:because|since|weil)\b.*", re.DOTALL | re.IGNORECASE)
-#: A comparison in brackets behind a word.
-_COMPARED = re.compile(r"(?<=\w)\s*\([^()]*[<>=≤≥≠][^()]*\)$")
+#: A comparison, or a number, in brackets behind a word.
+_COMPARED = re.compile(r"(?<=\w)(?:\s*\([^()]*[<>=≤≥≠][^()]*\)|\s+\([-+0-9./]+\))$")
 _REMARK = re.compile(r"(?<=\w)\s+\([^()]*\)$")
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
 _RELATION = re.compile(r"[<>!]=|=[<>]|[≤≥≠]")
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _OR = re.compile(r"\A(?:or|oder|/)(?!\w)\s*", re.IGNORECASE)
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
+#: What is said around the name of what is chosen: the green arm, model A, left!
+_AROUND = re.compile(
+    r"^(?:(?:the|der|die|das)\s+)?(?:(?:arm|model|action|policy|method)\s+)?"
+    r"|(?:\s+(?:arm|model|action|policy|method|one))?\s*!*$",
+    re.IGNORECASE,
+)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _BARS = re.compile(r"\|([^\s|](?:[^|\n]*[^\s|])?)\|")  # a cell of a table has spaces at its edges
 #: A normal distribution, by its mean and variance: N(5, 6).
@@ -91,6 +102,10 @@ _SAID_FIRST = re.compile(
 #: In brackets a sign that touches what follows begins an entry: [1 -1].
 _SIGNED_ENTRY = re.compile(r"[\w)]\s+[-+](?=[\w(√])")
 _SIGNED_LINE = re.compile(r"[\w.)\]}%]\s*\n\s*(?=[-+])")
+#: The name of an entry of a matrix, with its row and column: J12 =, J_{1,2} =, A[1, 2]:
+_INDEXED = re.compile(r"[^\W\d_]\w*?_?[{(\[]?([1-9]),?\s*([1-9])[})\]]?\s*[=:]\s*(?=\S)")
+#: A comma that may be a decimal comma.
+_TIGHT = re.compile(r",(?!\s)")
 _ENTRIES = 200
 _FORMS = 30
 _NUMBER_FIRST = re.compile(r"[-+]?[0-9][0-9./]*\s+([A-Za-z]{2,})(?![\w({\[])")
@@ -172,6 +187,7 @@ def _vector(
         entries = _pieces(source, length, parameters, called)
     entries = _unlabelled(entries, names, called)  # R_0 = 1, R_1 = 2
     most = max(_ENTRIES, length or 0)
+    _refuse_last_percent(entries)
     given = [index for index, entry in enumerate(entries) if not left_out(entry)] or range(len(entries))
     place = (lambda i: f"entry {given[i - 1] + 1}") if len(entries) != 1 else None
     readings = dict(zip(given, _numbers([entries[i] for i in given], parameters, place, most=most), strict=True))
@@ -220,9 +236,27 @@ def read_matrix(
         Unreadable: an entry is not a number, or the shape is another one.
     """
     source = clean(text, longest)
+    if shape and (placed := _by_indices(source, *shape)):
+        arithmetic = Arithmetic()
+        return tuple(tuple(_numbers([entry], parameters, None, arithmetic)[0] for entry in row) for row in placed)
     return _forms(
         source, lambda member: _matrix(member, shape, parameters), lambda rows: _given(chain.from_iterable(rows))
     )
+
+
+def _by_indices(source: Source, rows: int, columns: int) -> list[list[Source]] | None:
+    """The entries of a matrix that are typed one by one, each with its row and column; None if not all are."""
+    pieces = [piece for piece in source.split(",;\n") if piece.text]
+    named = [_INDEXED.match(piece.text) for piece in pieces]
+    found = {
+        (int(name[1]), int(name[2])): piece.part(name.end(), len(piece.text))
+        for piece, name in zip(pieces, named, strict=True)
+        if name
+    }
+    places = [[(row, column) for column in range(1, columns + 1)] for row in range(1, rows + 1)]
+    if len(pieces) != rows * columns or {*found} != {*chain.from_iterable(places)}:
+        return None
+    return [[found[place] for place in row] for row in places]
 
 
 def _matrix(
@@ -289,7 +323,8 @@ def read_table(
         return {keys[0]: reading}
     source = clean(keyed_list(text, (*keys, *ends)), longest)
     asked = Asked(keys, ends)
-    found = by_name(source, asked)
+    shared = for_all(source, keys)
+    found = dict.fromkeys(keys, shared) if shared else by_name(source, asked)
     if found is None:
         factor, body = _scaled(untransposed(_unnamed(source)), parameters)
         rows = _number_rows(body, len(keys))
@@ -302,6 +337,7 @@ def read_table(
             raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), len(keys))}")
     arithmetic = Arithmetic(len(found))
     given = {key: entry for key, entry in found.items() if not left_out(entry)} or found
+    _refuse_last_percent(given.values())
     return {key: _numbers([entry], parameters, partial(_place, key), arithmetic)[0] for key, entry in given.items()}
 
 
@@ -314,6 +350,10 @@ def _number_rows(source: Source, count: int) -> list[list[Source]]:
     if rows := nested_rows(source):
         return rows
     body, wrapped = unwrapped(source)
+    whole = [ended(row) for row in filled(body.split(";\n"))]
+    rows = [filled(row.split(",")) for row in whole]
+    if body.has(";") and not any(map(_TIGHT.search, (row.text for row in whole))) and sum(map(len, rows)) == count:
+        return rows  # -2, 3; 4, 6
     lines = filled(body.split("\n;" if body.has("\n") or not body.has(",") else "\n"))
     return [entries_of(line, (count > 1 or wrapped) and len(lines) != count) for line in lines]
 
@@ -344,7 +384,9 @@ def read_words(
     source = clean(keyed_list(text, (*keys, *ends)), longest)
     source = _without_reason(source) if len(keys) == 1 else source
     asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
-    found = by_name(source, asked)
+    shared = for_all(source, keys)
+    common = shared is not None and all(_is_option(shared.text, options[key]) for key in keys)
+    found = dict.fromkeys(keys, shared) if shared and common else by_name(source, asked)
     if found is None:
         body = _unnamed(source)
         rows = _word_rows(body, options)
@@ -418,6 +460,9 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
         before = typed[: remark.start()]
         if not _names_another(remark[0], _told(before, spellings), spellings):
             typed = before  # large (lower BIC)
+    bare = named_alone(typed)
+    if not matches(typed, spellings) and (_lettered(bare, options) or matches(bare, spellings)):
+        typed = bare
     both = _BOTH.fullmatch(typed)
     if both and (lettered := _lettered(both[1], options)):
         told = _told(both[2], spellings)
@@ -437,6 +482,11 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
         return hits[0]
     fault = "fits more than one option" if hits else "is not one of the options"
     raise source.unreadable(f"{quoted(source.text)} {fault}; type a letter from {min(options)} to {max(options)}.")
+
+
+def named_alone(text: str) -> str:
+    """A name without the words around it: ``green`` for ``the green arm``."""
+    return _AROUND.sub("", text.strip())
 
 
 def _flattened(text: str) -> str:
@@ -578,6 +628,18 @@ def _refuse_relations(source: Source) -> None:
     """
     if found := _RELATION.search(source.text):
         raise source.unreadable(f"{quoted(found[0])} is no equal sign; write the value alone.", found.start())
+
+
+def _refuse_last_percent(entries: Iterable[Source]) -> None:
+    """Complain about ``50, 30, 20 %``, where all may be percent, or the last one alone.
+
+    Raises:
+        Unreadable: the sign stands behind the last entry alone, and before it there is more than 1.
+    """
+    *before, last = sorted(entries, key=lambda entry: entry.start) or [Source("")]
+    bare = [reading for entry in before if (reading := plain(entry.text))]
+    if last.text.endswith("%") and len(bare) == len(before) and any(sign(each.value - 1) > 0 for each in bare):
+        raise last.unreadable("'%' stands behind the last number alone; write it behind each that is meant in percent.")
 
 
 def _times(factor: str, entries: Iterable[Source]) -> list[Source]:

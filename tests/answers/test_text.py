@@ -260,7 +260,8 @@ REFUSED = {
     "γ 2": "'2' follows without a sign",
     "5 % 3": "'3' follows without a sign",
     "exp -1": "Put what exp is taken of in brackets",
-    "sin^2(1)": "Put what sin is taken of in brackets",
+    "sin^-1(1)": "Put what sin is taken of in brackets",
+    "ln^2(2)": "Put what ln is taken of in brackets",
     "1 +": "A number is missing after '+'",
     "* 3": "A number is missing before '*'",
     "(1 + 2": "close the bracket",
@@ -1229,6 +1230,11 @@ def test_what_is_said_before_a_number_is_left_out(text):
 @pytest.mark.parametrize("text", ["1:4:2", "2 V: 1/4", "a: b: 1/4"])
 def test_a_colon_elsewhere_is_not_understood(text):
     assert "':'" in refusal(read_number, text).message
+
+
+@pytest.mark.parametrize("text", ["sin^2(30°)", "sin²(30°)", r"\sin^{2}(30°)", "1 - cos^2(30°)"])
+def test_a_power_of_a_function_of_angles(text):
+    assert read_number(text).value == fmpq(1, 4)
 
 
 def test_two_forms_of_different_shapes_are_not_equal():

@@ -108,6 +108,7 @@ def test_a_folder_of_another_run_is_left_alone(tmp_path: Path, whole: Path) -> N
     assert "was begun with other arguments" in str(refused)
     (tmp_path / "notes.txt").write_text("mine")
     assert "holds other files already" in str(generate(tmp_path).exception)
+    assert "is no folder; give the name of one" in str(generate(tmp_path / "notes.txt").exception)
 
 
 def test_a_run_without_a_seed_goes_on_with_that_of_its_folder(tmp_path: Path) -> None:

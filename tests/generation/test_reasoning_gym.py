@@ -36,6 +36,13 @@ def test_an_index_is_the_same_problem_again_and_the_splits_differ() -> None:
         train[9]
 
 
+def test_one_name_needs_no_brackets() -> None:
+    one, listed = (
+        reasoning_gym.create_dataset("rldrill", names=names, seed=3, size=2) for names in ("return", ["return"])
+    )
+    assert [entry["question"] for entry in one] == [entry["question"] for entry in listed]
+
+
 def test_what_does_not_exist_is_refused() -> None:
     with pytest.raises(AssertionError, match="There is no topic or family 'no-such'"):
         reasoning_gym.create_dataset("rldrill", names=("no-such",))
@@ -50,6 +57,9 @@ def test_answers_may_be_set_as_models_set_them() -> None:
         text = "\n".join(form.format(label, value) for label, value in (("a", first), ("b", second)))
         assert dataset.score_answer(text, dataset[0]) == 1, text
     assert dataset.score_answer(f"<answer>{dataset[0]['answer']}</answer>", dataset[0]) == 1
+    for said in ("The answer is: ", "Answer: ", "**Final answer:** ", "the final answer is "):
+        assert dataset.score_answer(said + dataset[0]["answer"], dataset[0]) == 1, said
+    assert dataset.score_answer(f"\\boxed{{{dataset[0]['answer']}}}", dataset[0]) == 1
     capitals = dataset[0]["answer"].replace("(a)", "(A)").replace("(b)", "(B)")
     assert dataset.score_answer(capitals, dataset[0]) == 1
     # A part without its answer takes none from the next one.
@@ -62,3 +72,5 @@ def test_blanks_without_end_take_no_time() -> None:
     blank = " " * 20_000
     with at_once():
         assert dataset.score_answer(f"(a){blank}x{blank}y\n{blank}\n{blank}z", entry) == 0
+        assert dataset.score_answer(f"the{blank}final{blank}answer{blank}is{blank}:{blank}x", entry) == 0
+        assert dataset.score_answer("\\boxed{" * 3000, entry) == 0

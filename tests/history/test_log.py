@@ -214,7 +214,7 @@ def test_a_quiz_that_cannot_write_says_so_once_and_goes_on(tmp_path: Path) -> No
     keeper.keep(FIRST)
     keeper.keep(SECOND)
     assert len(said) == 1
-    assert said[0].startswith("Your answers are not kept: ")
+    assert said[0].startswith(f"Your answers are not kept: {tmp_path / 'file'}")
 
 
 def test_a_file_that_is_no_database_is_told_and_left_alone(tmp_path: Path) -> None:

@@ -88,6 +88,7 @@ LISTED = "the fields there are few, some, word, sign, size, open, kind, told, in
         ({"Few": [1, 2]}, f"given.Few is not a field (did you mean few?); {LISTED}."),
         ({"qqqqq": 1}, f"given.qqqqq is not a field; {LISTED}."),
         ({"inner": {"deep": 1}}, "given.inner.deep is not a field (did you mean depth?); the field there is depth."),
+        ({"inners": "one"}, "given.inners: must be a list, in which each entry is a table of its own: {depth = …}."),
         ({"inners": [{"deep": 1}]},
          "given.inners[1].deep is not a field (did you mean depth?); the field there is depth."),
         ({"size": 0, "few": [1]}, "given.few: has 1 entry; it needs at least 2 entries (and 1 more fault)."),

@@ -150,6 +150,8 @@ def test_answers_and_files_agree(text: str) -> None:
         ("2θ", 10), ("θ²", 25), ("m l²", 63), ("m*l^2", 63), ("2(θ + ω)", 14), ("sin θ", 50), ("sin(θ)", 50),
         ("2sin θ", 100), ("½θ", 2.5), ("√4", 40), ("sqrt(θ)", 50), ("theta**2", 25), ("−θ", -5), ("θ·ω", 10),
         ("cos(2θ)^2", 10000), ("θω", 10), ("θ_1 ω", 22), ("-ω²/l", F(-4, 3)),
+        ("sin^2(θ)", 2500), ("sin²(θ)", 2500), ("cos^{2}θ", 2500), ("sin^2 θ", 2500), ("m sin^3(ω) l", 168000),
+        ("sin θ cos ω", 1000), ("sin²θ + cos²θ", 5000), ("sin^2(θ)^2", 6250000),
     ],
 )  # fmt: skip
 def test_files_read_what_answers_read(text: str, value: float) -> None:
@@ -169,7 +171,10 @@ def test_files_read_what_answers_read(text: str, value: float) -> None:
         ("2/1 3/4", 3, "two ways here"), ("1 3/4γ", 1, "two ways here"), ("1¾^2", 1, "two ways here"),
         ("1 4/4", 1, "must be below one"), ("1 3/0", 1, "divides by zero"), ("2 + 1 3/4²", 5, "two ways here"),
         ("sin γ²", 6, "two ways; put it in brackets"), ("sin 2γ", 6, "two ways; put it in brackets"),
-        ("sin γ/2", 6, "two ways; put it in brackets"), ("2 + sin -1", 9, "in brackets: sin"),
+        ("sin γ/2", 6, "two ways; put it in brackets"),
+        ("sin^-1(γ)", 4, "in brackets: sin"), ("sin^2", 4, "in brackets: sin"), ("ln^2(γ)", 3, "in brackets: ln"),
+        ("sin^22(γ)", 4, "in brackets: sin"),
+        ("sin γ ln γ", 7, "two ways; put it in brackets"), ("2 + sin -1", 9, "in brackets: sin"),
         ("1 + (γ*", 8, "missing after '*'"), ("1 + *2", 5, "missing before '*'"), ("(1 + γ", 7, "close the bracket"),
         ("(1))", 4, "not opened"), ("γ + @", 5, "'@' is not understood"), ("  γ + @", 7, "'@' is not understood"),
         ("1½ + @", 6, "'@' is not understood"), ("2⁺⁻", 2, "exponent"), ("γ\u200b", 2, "U+200B"), ("1,5γ", 2, "1.5"),

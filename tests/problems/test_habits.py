@@ -3,12 +3,14 @@
 from fractions import Fraction
 from typing import Any
 
+import jsonschema
 import pytest
 
 import rldrill
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 
+_OTHERWISE = ("\N{GREEK SMALL LETTER GAMMA}", "lambda", "episode", "V")
 RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
 
 
@@ -26,6 +28,26 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
          {"steps": [{"z": 1}]}),
         # one row without the brackets of the list
         ("bandit", {"pulls": ["a", 1], "arms": ["a", "b"]}, {"pulls": [["a", 1]]}),
+        # rows and tables as one text, or as tables
+        ("bandit", {"pulls": "a 1\na 3\nb 2"}, {"pulls": [["a", 1], ["a", 3], ["b", 2]]}),
+        ("bandit", {"pulls": "a, 1; a, 3; b, 2"}, {"pulls": [["a", 1], ["a", 3], ["b", 2]]}),
+        ("bandit", {"pulls": "| reward | arm |\n|---|---|\n| 1 | a |\n| 3 | b |"}, {"pulls": [["a", 1], ["b", 3]]}),
+        ("td-zero", {"transitions": [{"s": "a", "r": 1, "s'": "b"}, {"s": "b", "s'": "a", "r": 2}], "alpha": 1,
+                     "values": {"a": 0, "b": 0}, "gamma": 1}, {"transitions": [["a", "b", 1], ["b", "a", 2]]}),
+        ("denavit-hartenberg", {"links": "a alpha d theta\n1 0 0 30°\n0 90° 2 0"},
+         {"links": [{"a": 1, "alpha": 0, "d": 0, "theta": "30°"}, {"a": 0, "alpha": "90°", "d": 2, "theta": 0}]}),
+        # runs in the order of time
+        ("td-zero", {"trajectory": "a 1 b -.5 c", "values": {"a": 0, "b": 0, "c": 2}, "alpha": 1, "gamma": 1},
+         {"trajectory": {"states": ["a", "b", "c"], "rewards": [1, "-1/2"]}}),
+        ("sarsa", {"trajectory": "a → l → 1 → b → r", "values": {"a": {"l": 0}, "b": {"r": 2}}, "alpha": 1, "gamma": 1},
+         {"trajectory": {"states": ["a", "b"], "actions": ["l", "r"], "rewards": [1]}}),
+        ("batch-td-and-mc", {"episodes": ["A,0,B,0", {"states": ["B"], "rewards": [1], "times": 6}, "B 0"], "gamma": 1},
+         {"episodes": [{"states": ["A", "B"], "rewards": [0, 0]}, {"states": ["B"], "rewards": [1], "times": 6},
+                       {"states": ["B"], "rewards": [0]}]}),
+        # where actions lead as rows alone
+        ("bellman-backup", {"dynamics": [["c", "l", "d", 1, 2], ["c", "r", "e", 1, 4]], "values": {"d": 2, "e": 4},
+                            "gamma": "1/2", "policy": "random"},
+         {"dynamics": {"transitions": [["c", "l", "d", 1, 2], ["c", "r", "e", 1, 4]]}}),
         # other names of fields
         ("eligibility-trace", {"states": ["a"], "\N{GREEK SMALL LETTER GAMMA}": 1, "lambda": 1, "asked": [0]},
          {"gamma": 1, "lam": 1}),
@@ -36,6 +58,8 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
                            "motion": {"a": {"go": {"b": "1/3", "a": "2/3"}}, "b": {"go": {"b": 1}}}},
          {"actions": ["go"], "motion": {"go": {"a": {"b": "1/3", "a": "2/3"}, "b": {"b": 1}}}}),
         ("value-from-action-values", {"values": {"s": {"l": 1, "r": 3}}, "policy": "random"}, {"policy": "uniform"}),
+        ("monte-carlo", {"episode": RUN, "V": {"a": 0, "b": 0}, "alpha": 1, "gamma": 1, "visits": "every"},
+         {"trajectory": RUN, "values": {"a": 0, "b": 0}}),
         # columns
         ("kalman-filter", {"mean": [1, 2], "covariance": [[1, 0], [0, 1]], "A": [[1, 1], [0, 1]], "B": [[0], [1]],
                            "C": [[1, 0]], "process": [[0, 0], [0, 0]], "sensor": 1, "steps": [{"u": [3], "z": [4]}]},
@@ -46,7 +70,7 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
     ],
 )  # fmt: skip
 def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], usual: dict[str, Any]) -> None:
-    kept = {key: value for key, value in given.items() if key not in ("\N{GREEK SMALL LETTER GAMMA}", "lambda")}
+    kept = {key: value for key, value in given.items() if key not in _OTHERWISE}
     assert family(name).read(given) == family(name).read(kept | usual)
 
 
@@ -108,6 +132,15 @@ TWO = {
         # V(A) = (5 + V(B)/2 + 1 + V(A)/2)/2, V(B) = (2 + V(A)/2 + V(B)/2)/2: 5 and 3
         ({"go": 0.5, "stay": "1/2"}, (5, 3)),
         ("uniform", (5, 3)),
+        # by rows, as a text, and in the order of the states: V(A) = 5 + V(B)/2, V(B) = V(B)/2: 5 and 0
+        ([["A", "go"], ["B", "stay"]], (5, 0)),
+        ("A: go, B: stay", (5, 0)),
+        ("π(A) = go; π(B) = stay", (5, 0)),
+        ("A -> go\nB -> stay", (5, 0)),
+        (["go", "stay"], (5, 0)),
+        ([[1, 0], ["0", "1"]], (5, 0)),
+        ([["A", "go", 0.5], ["A", "stay", 0.5], ["B", "go", "1/2"], ["B", "stay", "1/2"]], (5, 3)),
+        ([["1/2", "1/2"], [0.5, 0.5]], (5, 3)),
     ],
 )
 def test_a_policy_that_is_the_same_everywhere_may_be_written_once(policy: Any, values: tuple[int, int]) -> None:
@@ -115,12 +148,53 @@ def test_a_policy_that_is_the_same_everywhere_may_be_written_once(policy: Any, v
     assert rldrill.read(problem).answers() == {"a": dict(zip("AB", values, strict=True))}
 
 
+def test_the_episodes_of_sutton_and_barto_as_they_print_them() -> None:
+    """Example 6.4: batch TD(0) gives A and B 3/4, Monte Carlo gives A 0."""
+    given = {"episodes": "A, 0, B, 0\n" + "B, 1\n" * 6 + "B, 0\n", "gamma": 1}
+    answers = rldrill.read({"family": "batch-td-and-mc", "given": given}).answers()
+    quarters = Fraction(3, 4)
+    assert answers == {"a": {"A": 0, "B": quarters}, "b": {"A": quarters, "B": quarters}}
+
+
+@pytest.mark.parametrize("run", ["1 5 2 15 3", "a -1 b 2,5 c", "a b c", "a 1 2 b", "1 a 2 b", ""])
+def test_what_is_no_run_is_refused(run: str) -> None:
+    with pytest.raises(FileError, match=r"given\.trajectory"):
+        family("td-zero").read({"trajectory": run, "values": {"a": 0, "b": 0}, "alpha": 1, "gamma": 1})
+
+
+def test_the_order_of_the_states_is_told_where_a_policy_rests_on_it() -> None:
+    told: list[str] = []
+    given = {"mdp": TWO, "gamma": 0.5, "policy": ["go", "stay"]}
+    family("policy-value").read(given, told.append)
+    assert told == ["took the policy in the order of the states A, B and of the actions go, stay"]
+
+
+def test_rows_that_may_be_pairs_or_probabilities_are_refused() -> None:
+    """Of [[1, 0], [0, 1]] the first row may say that action 0 is taken in state 1, or in state 0 for sure."""
+    model = {"P": [[[1, 0], [0, 1]], [[0, 1], [1, 0]]], "R": [0, 1]}
+    with pytest.raises(FileError, match="policy"):
+        family("policy-value").read({"mdp": model, "gamma": 0.5, "policy": [[1, 0], [0, 1]]})
+
+
 def test_the_policy_to_start_from_may_be_one_action() -> None:
     given = {"mdp": TWO, "gamma": 0.5, "start": "go", "rounds": 1}
     assert rldrill.read({"family": "policy-iteration", "given": given}).answers()["a"] == {"A": 8, "B": 6}
 
 
-@pytest.mark.parametrize("policy", ["fly", {"go": 1, "A": "go"}, {"fly": 1}, ["go", "stay"]])
+@pytest.mark.parametrize(
+    "policy",
+    [
+        "fly",
+        {"go": 1, "A": "go"},
+        {"fly": 1},
+        ["go", "fly"],
+        ["go"],
+        [["A", "go"], ["A", "stay"]],
+        [1, 0],
+        [["A", "go"], ["B", "go", 1]],
+        "A: go, B",
+    ],
+)
 def test_a_policy_of_something_else_is_refused(policy: Any) -> None:
     with pytest.raises(FileError):
         family("policy-value").read({"mdp": TWO, "gamma": 0.5, "policy": policy})
@@ -155,3 +229,49 @@ def test_ways_may_have_costs() -> None:
             family("principle-of-optimality").read(given | {"costs": [wrong]})
     with pytest.raises(FileError, match="costs is not a field"):
         family("principle-of-optimality").read(given | {"edges": costs})
+
+
+ROWS = [["A", "go", "A", 1, 1]]
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("return-infinite", {"first": 2, "repeated": "7", "gamma": "1/2"}),
+        ("return", {"rewards": 3, "gamma": 1}),
+        ("bandit", {"pulls": "a 1\na 3\nb 2"}),
+        ("kalman-filter", {"mean": 0, "covariance": 1, "process": 0, "sensor": 1, "steps": {"z": 1}}),
+        ("td-zero", {"transitions": [{"s": "a", "r": 1, "s'": "b"}], "values": {"a": 0, "b": 0}, "alpha": 1,
+                     "gamma": 1}),
+        ("denavit-hartenberg", {"links": "a alpha d theta\n1 0 0 30°"}),
+        ("td-zero", {"trajectory": "a 1 b", "values": {"a": 0, "b": 1}, "alpha": 1, "gamma": 1}),
+        ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": "go"}),
+        ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": [["A", "go"]]}),
+        ("policy-value", {"mdp": {"transitions": "A go A 1 1"}, "gamma": "1/2"}),
+        ("policy-value", {"mdp": ROWS, "gamma": "1/2"}),
+        ("policy-value", {"mdp": {"P": "[[[1]]]", "R": "[1]"}, "gamma": "1/2"}),
+        ("policy-value", {"mdp": {"P": {"go": [[1]]}, "R": {"go": [1]}}, "gamma": "1/2"}),
+        ("action-value", {"dynamics": ROWS, "values": {"A": 1}, "gamma": "1/2"}),
+    ],
+)  # fmt: skip
+def test_the_schema_of_files_takes_the_short_forms_that_are_read(name: str, given: dict[str, Any]) -> None:
+    schema = family(name).written_schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(given, schema)
+    family(name).read(given)
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("return", {"rewards": {"a": 3}, "gamma": 1}),
+        ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": "0, 1"}),
+        ("rbf", {"position": [1], "centres": 3, "sigma": 1, "theta": "1 2", "more": 1}),
+        ("policy-value", {"mdp": 3, "gamma": "1/2"}),
+    ],
+)
+def test_the_schema_of_files_refuses_what_is_not_read(name: str, given: dict[str, Any]) -> None:
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(given, family(name).written_schema())
+    with pytest.raises(FileError):
+        family(name).read(given)

@@ -70,6 +70,13 @@ def test_ends_are_found_where_none_are_named() -> None:
         process(["s", "a", "t", 0.5, 0], ["s", "a", "u", 0.5, 0], terminal=["t"])
 
 
+def test_a_name_in_other_capitals_is_no_end_unless_it_is_said() -> None:
+    rows: list[list[object]] = [["A", "go", "b", 1, 1], ["B", "go", "A", 1, 0]]
+    with pytest.raises(ValidationError, match="'b' has no action, but 'B' has; write its name alike, or list 'b' as"):
+        process(*rows)
+    assert process(*rows, terminal=["b"]).terminal == ("b",)
+
+
 def test_rewards_of_states_and_of_actions() -> None:
     rows: list[list[object]] = [["s", "go", "t", 0.5], ["s", "go", "s", 0.5], ["s", "no", "s", 1]]
     half = Fraction(1, 2)
@@ -334,9 +341,11 @@ def test_transitions_may_be_a_table_that_is_pasted(written: object) -> None:
 @pytest.mark.parametrize(
     ("written", "says"),
     [
-        ("A go B 1 1\nB go A 1 1", "transitions: the column 'A go B 1 1' is not known; call the columns state, action"),
+        ("A go B 1\nB go A 1", "transitions: the column 'A go B 1' is not known; call the columns state, action"),
         ("s,a,s',r\nA,go,B\n", "transitions: line 2 has 3 entries, the header has 4; make them equal"),
         ([{"s": "A", "a": "go", "r": 1}], "transitions: the column 'next' is missing"),
+        ("s,a,s',cost\nA,go,B,5\n", "the column 'cost' holds costs; turn their signs, and call it reward"),
+        ("s,a,s',r\nA,go,B,1\nB,,A,2\n", "'' is no name"),
     ],
 )
 def test_a_pasted_table_that_does_not_fit(written: object, says: str) -> None:
@@ -349,6 +358,107 @@ def test_it_is_told_how_arrays_are_read_whose_order_cannot_be_seen(P: object, to
     notes: list[str] = []
     read_form({"P": P, "R": [0, 1]}, notes.append)
     assert notes == told
+
+
+#: Going leads from A to B and earns 5, half of the time; else it stays there for nothing. B ends.
+GOES = [["A", "go", "B", "1/2", 5], ["A", "go", "A", "1/2", 0]]
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        GOES,
+        {"transitions": "A go B 1/2 5\nA go A 1/2 0"},
+        "A, go, B, 1/2, 5\nA, go, A, 1/2, 0",
+        {"transitions": "# a remark\nstate,action,next,p,r\nA,go,B,1/2,5\n,,A,1/2,0\n"},
+        {"transitions": "Zustand;Aktion;Folgezustand;Wahrscheinlichkeit;Belohnung\nA;go;B;0,5;5\nA;go;A;0,5;0\n"},
+        {"transitions": "# s,a,s',p,r\nA,go,B,.5,5\n#\nA,go,A,.5,0\n".replace("#\n", "")},
+        {"transitions": {"A": {"go": {"B": ["1/2", 5], "A": ["1/2", 0]}}}},
+    ],
+)
+def test_rows_alone_without_a_header_or_inside_tables(model: object) -> None:
+    assert Model.model_validate(model) == process(*GOES)
+
+
+def test_tables_inside_tables_with_rewards_beside_them() -> None:
+    """By state and action, whose next state is enough where it is certain; without actions by state alone."""
+    certain = {
+        "transitions": {"A": {"go": "B", "stay": "A"}, "B": {"go": {"A": 1}}},
+        "rewards": {"A": 3, "B": {"go": 2}},
+    }
+    rows = [["A", "go", "B", 1, 3], ["A", "stay", "A", 1, 3], ["B", "go", "A", 1, 2]]
+    assert Model.model_validate(certain) == process(*rows)
+    alone = {"P": {"A": {"A": "1/2", "B": "1/2"}, "B": {"B": 1}}, "R": {"A": 1, "B": 2}}
+    rows = [["A", "A", "1/2", 1], ["A", "B", "1/2", 1], ["B", "B", 1, 2]]
+    assert Model.model_validate(alone) == process(*rows)
+    with pytest.raises(ValidationError, match="'A' must have a table of its actions"):
+        Model.model_validate({"transitions": {"A": "B"}})
+
+
+@pytest.mark.parametrize(
+    ("P", "R"),
+    [
+        ("[[[0, 1], [1, 0]], [[1/2, 1/2], [0, 1]]]", "[0, 3]"),
+        ("array([[[0. , 1. ],\n        [1. , 0. ]],\n\n       [[0.5, 0.5],\n        [0. , 1. ]]])", [0, 3]),
+        ({"0": [[0, 1], [1, 0]], "1": [["1/2", "1/2"], [0, 1]]}, [0, 3]),
+        ({"0": "[0 1; 1 0]", "1": "[1/2 1/2; 0 1]"}, {"0": [0, 3], "1": [0, 3]}),
+        ([[[0, 1], [1, 0]], [["1/2", "1/2"], [0, 1]]], "[0 0; 3 3]"),
+    ],
+)
+def test_arrays_as_text_and_by_the_names_of_the_actions(P: Any, R: Any) -> None:
+    rows = [["0", "0", "1", 1, 0], ["0", "1", "0", "1/2", 0], ["0", "1", "1", "1/2", 0], ["1", "0", "0", 1, 3],
+            ["1", "1", "1", 1, 3]]  # fmt: skip
+    assert Model.model_validate({"P": P, "R": R}) == process(*rows)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [{"states": ["low", "high"], "actions": ["go", "stay"]}, {"states": ["low", "high"], "actions": ["go", "stay"],
+                                                             "R": {"low": 0, "high": 3}}],
+)  # fmt: skip
+def test_arrays_with_names(names: dict[str, Any]) -> None:
+    P = [[[0, 1], [1, 0]], [["1/2", "1/2"], [0, 1]]]
+    rows = [["low", "go", "high", 1, 0], ["low", "stay", "low", "1/2", 0], ["low", "stay", "high", "1/2", 0],
+            ["high", "go", "low", 1, 3], ["high", "stay", "high", 1, 3]]  # fmt: skip
+    assert Model.model_validate({"P": P, "R": [0, 3]} | names) == process(*rows)
+    by_action = {"P": dict(zip(("go", "stay"), P, strict=True)), "R": {"low": 0, "high": 3}, "states": ["low", "high"]}
+    assert Model.model_validate(by_action) == process(*rows)
+    ends = {"P": P, "R": [0, 3], "terminal": "high"} | names
+    assert Model.model_validate(ends).terminal == ("high",)
+
+
+@pytest.mark.parametrize(
+    ("P", "R", "says"),
+    [
+        ("[[1, 0], [0, 1]", [0, 0], "the brackets of the array '[[1, 0], [0, 1]' do not fit"),
+        ("]", [0, 0], "the brackets of the array ']' do not fit"),
+        ("[" * 5000 + "1" + "]" * 5000, [0], "the brackets of the array '[[[[[[[[[[[[[[[[[[[[' do not fit"),
+        ({"go": [[1, 0], [0, 1]], "stay": [[1, 0], [0, 1]]}, {"go": [0, 0]}, "R: the rewards of 'stay' are missing"),
+        (
+            {"go": [[1, 0], [0, 1]]},
+            {"go": [0, 0], "stay": [0, 0]},
+            "R: 'stay' is the name of no state and of no action",
+        ),
+    ],
+)
+def test_arrays_that_do_not_fit(P: Any, R: Any, says: str) -> None:
+    with pytest.raises(ValidationError, match=re.escape(says)):
+        Model.model_validate({"P": P, "R": R})
+
+
+def test_every_state_of_the_arrays_needs_a_name_of_its_own() -> None:
+    for states in (["A"], ["A", "A"], ["A", "B", "C"]):
+        with pytest.raises(ValidationError, match=f"states: {len(states)} names are given for 2 states"):
+            Model.model_validate({"P": [[[1, 0], [0, 1]]], "R": [0, 0], "states": states})
+
+
+def test_it_is_told_which_index_of_the_rewards_is_which() -> None:
+    notes: list[str] = []
+    read_form({"P": [[[1, 0], [0, 1]], [[0, 1], [1, 0]]], "R": [[0, 1], [2, 3]]}, notes.append)
+    assert notes == [SQUARE.replace(",", " and R for R[state][action],")]
+    notes.clear()
+    read_form({"P": [[[1, 0], [0, 1]], [[0, 1], [1, 0]]], "R": [[[0, 1], [2, 3]]] * 2}, notes.append)
+    assert notes == [SQUARE]
 
 
 def test_rows_of_numbers_that_could_be_another_process_are_told() -> None:

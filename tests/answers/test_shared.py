@@ -1,0 +1,136 @@
+"""Values that are said to hold for all or for the rest of what is asked for, and other things that people say."""
+
+import pytest
+from flint import fmpq
+
+from promptness import at_once
+from rldrill.problems.parts import Policy
+from rldrill.solutions.answers.kinds import Allowed, answer_kind
+from rldrill.solutions.answers.text import (
+    Unreadable,
+    read_choice,
+    read_matrix,
+    read_table,
+    read_vector,
+    read_words,
+    read_yes_no,
+)
+
+STATES = ["cool", "warm"]
+ACTIONS = {"cool": ["fast", "slow"], "warm": ["fast", "slow"]}
+PAIRS = [(state, action) for state in STATES for action in ("fast", "slow")]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["both slow", "Always slow", "slow in both", "slow everywhere", "slow in every state", "slow for all s", "slow ∀s",
+     "in both states: slow", "all slow", "überall slow"],
+)  # fmt: skip
+def test_one_action_for_all_states(text: str) -> None:
+    assert read_words(text, STATES, ACTIONS) == {"cool": ("slow",), "warm": ("slow",)}
+
+
+def test_a_comma_makes_an_entry_of_both_which_is_a_tie() -> None:
+    assert read_words("both, slow", STATES, ACTIONS) == {"cool": ("fast", "slow"), "warm": ("slow",)}
+
+
+def test_both_are_two() -> None:
+    with pytest.raises(Unreadable):
+        read_table("both 1/5", ["a", "b", "c"])
+    with pytest.raises(Unreadable):
+        read_words("slow both", ["a", "b", "c"], {key: ["fast", "slow"] for key in "abc"})
+
+
+def test_a_name_is_no_word_for_all() -> None:
+    assert read_table("all 1/5, warm 1", ["all", "warm"]) == read_table("1/5, 1", ["all", "warm"])
+    assert list(read_table("all 1/5", ["all", "warm"])) == ["all"]
+
+
+@pytest.mark.parametrize("text", ["both 0.2", "0.2 for both", "20% each", "0.2 (both)", "all 1/5", "1/5 in all states"])
+def test_one_value_for_all_states(text: str) -> None:
+    assert [reading.value for reading in read_table(text, STATES).values()] == [fmpq(1, 5)] * 2
+
+
+@pytest.mark.parametrize("text", ["up: 2/3, others: 1/6", "up = 2/3, all others = 1/6", "up: 2/3; the rest: 1/6"])
+def test_what_is_not_named_is_the_rest(text: str) -> None:
+    read = read_table(text, ["left", "up", "right"])
+    assert [reading.value for reading in read.values()] == [fmpq(1, 6), fmpq(2, 3), fmpq(1, 6)]
+
+
+def test_the_rest_needs_something_before_it_and_may_be_a_name() -> None:
+    with pytest.raises(Unreadable):
+        read_table("others: 1/6", ["left", "up"])
+    assert [each.value for each in read_table("up: 1, rest: 2", ["up", "rest"]).values()] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["-2, 3; 4, 6", "[-2, 3; 4, 6]", "cool: -2, 3; warm: 4, 6", "fast: -2, 4\nslow: 3, 6",
+     r"\begin{pmatrix} -2 & 3 \\ 4 & 6 \end{pmatrix}", "Q(cool, fast) <- -2, Q(cool, slow) <- 3, warm fast: 4, "
+     "warm slow: 6"],
+)  # fmt: skip
+def test_a_row_for_each_state(text: str) -> None:
+    assert [reading.value for reading in read_table(text, PAIRS).values()] == [-2, 3, 4, 6]
+
+
+@pytest.mark.parametrize("text", ["-2,3; 4,6", "cool: -2,3; warm: 4,6", "cool: 1, 2, 3; warm: 4"])
+def test_rows_whose_commas_may_be_decimal_or_of_another_length_are_none(text: str) -> None:
+    with pytest.raises(Unreadable):
+        read_table(text, PAIRS)
+
+
+@pytest.mark.parametrize(
+    "text", ["J11 = 1, J12 = 2, J21 = 3, J22 = 4", "J_{12} = 2; J_{11} = 1; J_{22} = 4; J_{21} = 3",
+             "a_11: 1\na_12: 2\na_21: 3\na_22: 4", "A[1,1] = 1, A[1,2] = 2, A[2,1] = 6/2 = 3, A[2,2] = 4"]
+)  # fmt: skip
+def test_the_entries_of_a_matrix_by_their_indices(text: str) -> None:
+    assert [[each and each.value for each in row] for row in read_matrix(text, (2, 2))] == [[1, 2], [3, 4]]
+
+
+@pytest.mark.parametrize("text", ["J11 = 1, J12 = 2, J21 = 3", "J11 = 1, J11 = 2, J21 = 3, J22 = 4", "x = 5, v = 1"])
+def test_entries_of_a_matrix_that_are_not_all_there(text: str) -> None:
+    with pytest.raises(Unreadable):
+        read_matrix(text, (2, 2))
+
+
+@pytest.mark.parametrize("text", ["50, 30, 20 %", "50; 30; 20%"])
+def test_percent_behind_the_last_number_alone_may_be_meant_of_all(text: str) -> None:
+    with pytest.raises(Unreadable, match="behind the last number alone"):
+        read_vector(text, 3)
+    with pytest.raises(Unreadable, match="behind the last number alone"):
+        read_table(text, ["a", "b", "c"])
+    with pytest.raises(Unreadable, match="behind the last number alone"):
+        read_table("c: 50, a: 30, b: 20 %", ["a", "b", "c"])
+
+
+def test_percent_behind_each_or_among_parts_of_one() -> None:
+    for text in ("50%, 30%, 20%", "0.5, 0.3, 20%", "0.5, 30%, 20%"):
+        assert [each and each.value for each in read_vector(text, 3)] == [fmpq(1, 2), fmpq(3, 10), fmpq(1, 5)]
+
+
+@pytest.mark.parametrize("text", ["green", "the green arm", "arm green", "green (4)", "Green!", "a = the green arm"])
+def test_words_around_a_single_choice(text: str) -> None:
+    kind = answer_kind(Policy({"next": ("green", "red")}, of=""))
+    assert kind.read(text, Allowed()) == {"next": ("green",)}
+
+
+@pytest.mark.parametrize("text", ["not green", "not the green arm", "the arm", "green (red)"])
+def test_what_names_no_choice(text: str) -> None:
+    with pytest.raises(Unreadable):
+        answer_kind(Policy({"next": ("green", "red")}, of="")).read(text, Allowed())
+
+
+@pytest.mark.parametrize("text", ["model A", "the large model", "Large!", "the model A"])
+def test_words_around_an_option(text: str) -> None:
+    assert read_choice(text, {"A": "large", "B": "small"}) == "A"
+
+
+def test_yes_and_no_in_other_words() -> None:
+    assert [read_yes_no(text) for text in ("correct", "wahr", "vrai", "✓", "да")] == [True] * 5
+    assert [read_yes_no(text) for text in ("incorrect", "falsch", "faux", "✗", "нет")] == [False] * 5
+
+
+@pytest.mark.parametrize("text", ["0.2" + " " * 1900 + "x", "always " * 280, "0.2" + " (" * 900, "in all " * 280])
+def test_what_may_be_said_of_all_takes_no_time_to_look_for(text: str) -> None:
+    with at_once(), pytest.raises(Unreadable):
+        read_table(text, STATES)
