@@ -316,12 +316,15 @@ class Search:
 
     @staticmethod
     def _in_a_share(cause: Cause) -> Cause:
-        """A cause in one share of several: no slip makes it larger than 1, and a formula is misread for all of them."""
-        if cause.mistake is not None:
-            return replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
-        if cause.edit is not None or cause.kind not in weights.SLIPS:  # a point or a digit slips in any number
-            return cause
-        return replace(cause, weight=cause.weight * likely_share(cause.became))
+        """A cause in one share of several: no slip makes it negative or larger than 1.
+
+        A formula is misread for all of them, and what they are divided by is worked out once.
+        """
+        if cause.mistake is not None or cause.term:
+            cause = replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
+        if cause.kind in weights.SIGNS or (cause.edit is None and cause.kind in weights.SLIPS):
+            return replace(cause, weight=cause.weight * likely_share(cause.became))
+        return cause  # a point or a digit slips in any number
 
     @cached_property
     def _shares(self) -> set[int]:
