@@ -98,7 +98,7 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
 
 
 def shares(applications: Sequence[Application]) -> set[int]:
-    """The numbers of applications whose values sum to 1 with those of the same formula: nobody takes more for a share."""
+    """The numbers of applications whose values sum to 1 with others of the same formula: shares of something."""
     found: set[int] = set()
     of_formula: dict[Expr, list[Application]] = defaultdict(list)
     for application in applications:

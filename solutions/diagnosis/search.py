@@ -322,9 +322,9 @@ class Search:
         """
         if cause.mistake is not None or cause.term:
             cause = replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
-        if cause.kind in weights.SIGNS or (cause.edit is None and cause.kind in weights.SLIPS):
-            return replace(cause, weight=cause.weight * likely_share(cause.became))
-        return cause  # a point or a digit slips in any number
+        if cause.kind in ("tenfold", "digits"):  # a point or a digit slips in any number
+            return cause
+        return replace(cause, weight=cause.weight * likely_share(cause.became))
 
     @cached_property
     def _shares(self) -> set[int]:

@@ -281,6 +281,9 @@ with evaluate(False):
     PROCESS_NOISE_FORGOTTEN = Misconception(
         "process-noise-forgotten", "Every motion adds the variance of its own noise to the belief.", when=_is_noisy
     )
+    NOISE_SQUARED = Misconception(
+        "noise-squared", "R is a variance already: it is added as it is, not squared.", when=_on_a_line
+    )
     KALMAN_MOVE_COVARIANCE = Formula(
         "kalman-predict-covariance",
         covariance_bar(t),
@@ -293,6 +296,7 @@ with evaluate(False):
         misread={
             PROCESS_NOISE_FORGOTTEN: Ai * covariance(t - 1) * Transposed(Ai),
             NOISES_EXCHANGED: Ai * covariance(t - 1) * Transposed(Ai) + Qi,
+            NOISE_SQUARED: Ai * covariance(t - 1) * Transposed(Ai) + Ri**2,
         },
     )
     VARIANCES_FOR_INVERSES = Misconception(

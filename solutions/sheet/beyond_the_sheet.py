@@ -45,6 +45,7 @@ with evaluate(False):
         "absolute-for-relative-angles",
         "A joint's angle counts from the link before: the angles of all joints up to the link are added.",
     )
+    ABSOLUTE_IN_A_FRAME = Misconception("absolute-angles-in-a-frame", ABSOLUTE_ANGLES.says)
     LINK_ANGLE = Formula(
         "link-angle",
         phi(i),
@@ -164,8 +165,9 @@ def poses(*, moved: bool) -> tuple[Formula, Formula, Formula]:
     """The angle and the end of any link, perhaps on a base that is moved and turned."""
     with evaluate(False):
         turned = (phi(0),) if moved else ()
+        right, absolute = Add(*turned, SumOver(theta(j), j, Counting(1, i))), Add(*turned, theta(i))
         return (
-            replace(LINK_ANGLE, right=Add(*turned, SumOver(theta(j), j, Counting(1, i))), misread={}),
+            replace(LINK_ANGLE, right=right, misread={ABSOLUTE_IN_A_FRAME: absolute}),
             _end(FORWARD_X, x_of(n), (x0,) if moved else (), cos),
             _end(FORWARD_Y, y_of(n), (y0,) if moved else (), sin),
         )
@@ -238,6 +240,9 @@ with evaluate(False):
         place=Place.WORKING,
         misread={CRAIGS: Blocks(3, a_link(i), -sin(al(i)) * d(i), cos(al(i)) * d(i))},
     )
+    ORIGIN_TURNED = Misconception(
+        "origin-turned", "The origin is given in the frame before: it is added after the rotation, and not turned."
+    )
     FORWARD_POINT = Formula(
         "frame-point",
         point(i - 1),
@@ -247,6 +252,9 @@ with evaluate(False):
         hint="Turn it by the rotation of the link's transform, then add the transform's last column.",
         note="$T_i$ has the rotation $R_i$ and the origin $o_i$.",
         place=Place.WORKING,
+        misread={
+            ORIGIN_TURNED: rotation(i) * (point(i) + origin(i)),
+        },
     )
     NOT_INVERTED = Misconception(
         "not-inverted",

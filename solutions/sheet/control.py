@@ -332,6 +332,10 @@ with evaluate(False):
         "shared-among-the-others",
         "Exploring picks among all |A| actions, the greedy one too, not among the other |A| − 1.",
     )
+    EXPLORING_FORGOTTEN = Misconception(
+        "exploring-forgotten",
+        "What is left beside 1 − ε is not lost: with probability ε one of all |A| actions is taken, which counts too.",
+    )
     EPSILON_GREEDY = Formula(
         "epsilon-greedy",
         pi(a, s),
@@ -342,6 +346,7 @@ with evaluate(False):
         misread={
             SHARE_FORGOTTEN: Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / Size(Actions(s))),
             SHARED_AMONG_OTHERS: Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / (Size(Actions(s)) - 1)),
+            EXPLORING_FORGOTTEN: Cases(Indicator(a, Best(s)), 1 - epsilon, 0),
         },
     )
 

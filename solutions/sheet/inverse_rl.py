@@ -150,6 +150,9 @@ with evaluate(False):
     START_NOT_COUNTED = Misconception(
         "start-not-counted", "The sum begins with the features of s₀ itself, undiscounted, not with those of s₁."
     )
+    WAYS_TRANSPOSED = Misconception(
+        "ways-transposed", "π and P give the probability to go from s to s′; it was read from s′ to s."
+    )
     FEATURES_FROM = Formula(
         "feature-expectations-from",
         mu_of(j, s),
@@ -164,6 +167,8 @@ with evaluate(False):
             * SumOver(
                 pi(a, s) * SumOver(P(s, a, s1) * (phi(j, s1) + mu_of(j, s1)), s1, Successors(s, a)), a, Actions(s)
             ),
+            WAYS_TRANSPOSED: phi(j, s)
+            + gamma * SumOver(SumOver(pi(a, s1) * P(s1, a, s), a, Actions(s1)) * mu_of(j, s1), s1, States),
         },
     )
     START_IGNORED = Misconception(
