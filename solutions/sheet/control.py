@@ -589,6 +589,9 @@ with evaluate(False):
     ROOT_FORGOTTEN = Misconception(
         "root-forgotten", "The bonus is c times the square root of (ln t)/N(a), not c times the quotient itself."
     )
+    COUNT_OUTSIDE_THE_ROOT = Misconception(
+        "count-outside-the-root", "N(a) stands under the root, too: the bonus shrinks as 1/√N(a), not as 1/N(a)."
+    )
     UCB = Formula(
         "ucb",
         U(a),
@@ -603,6 +606,7 @@ with evaluate(False):
             OWN_COUNT_FORGOTTEN: Q(a) + c * sqrt(log(t)),
             PULLS_FOR_TIME: Q(a) + c * sqrt(log(t - 1) / N(a)),
             LOG_10_IN_UCB: Q(a) + c * sqrt(log(t) / log(10) / N(a)),
+            COUNT_OUTSIDE_THE_ROOT: Q(a) + c * sqrt(log(t)) / N(a),
         },
     )
     UCB_ARM = Formula(
@@ -627,6 +631,7 @@ with evaluate(False):
             TIME_FOR_LOG: (Q(a) - Q(b)) / (sqrt(t / N(b)) - sqrt(t / N(a))),
             ROOT_FORGOTTEN: (Q(a) - Q(b)) / (log(t) / N(b) - log(t) / N(a)),
             PULLS_FOR_TIME: (Q(a) - Q(b)) / (sqrt(log(t - 1) / N(b)) - sqrt(log(t - 1) / N(a))),
+            COUNT_OUTSIDE_THE_ROOT: (Q(a) - Q(b)) / (sqrt(log(t)) / N(b) - sqrt(log(t)) / N(a)),
         },
     )
 

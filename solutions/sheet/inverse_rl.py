@@ -114,6 +114,9 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 2",
         hint="Discount the features of the states along every trajectory from t = 0 on, then average the trajectories.",
     )
+    FEATURES_AVERAGED = Misconception(
+        "averaged-along", "Along a trajectory the discounted features are added up, not averaged over its states."
+    )
     FEATURES_ALONG = Formula(
         "features-along",
         mu_along(j, run),
@@ -125,6 +128,9 @@ with evaluate(False):
         misread={
             FEATURES_UNDISCOUNTED: SumOver(phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
             FEATURES_EARLY: SumOver(gamma ** (t + 1) * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+            FEATURES_AVERAGED: 1
+            / (Last(run) + 1)
+            * SumOver(gamma**t * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
         },
     )
     STATES_COUNTED = Misconception(

@@ -544,6 +544,9 @@ with evaluate(False):
             NOT_AVERAGED: SumOver(L_t(t), t, Samples),
         },
     )
+    ENTROPY_IN_BITS = Misconception(
+        "entropy-in-bits", "The logarithms are natural, to the base e; those to the base 2 give the entropy in bits."
+    )
     ENTROPY = Formula(
         "entropy",
         entropy,
@@ -552,4 +555,7 @@ with evaluate(False):
         source="Cover & Thomas 2006, section 2.1",
         hint="Weight the logarithm of every probability by the probability itself, add, and change the sign.",
         place=Place.WORKING,
+        misread={
+            ENTROPY_IN_BITS: -SumOver(pi(a, s) * log(pi(a, s)), a, Choices) / log(2),
+        },
     )
