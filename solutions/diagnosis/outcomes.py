@@ -20,7 +20,7 @@ from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import Typed, approximate, cells_of, equal, may_mean, near, reach
-from rldrill.solutions.diagnosis.written_down import scaled, written_down
+from rldrill.solutions.diagnosis.written_down import as_a_whole, written_down
 
 #: Where an answer is no straight line in a value, so many other values of one application are gone on from.
 _REPLAYS = 150
@@ -294,7 +294,7 @@ class Outcomes:
     def giving(self, typed: Typed) -> list[Outcome]:
         """The causes that give what was typed."""
         found = [outcome for outcome in self.single.near(typed) if self._gives(outcome, typed)]
-        for cause, cells in scaled(typed):
+        for cause, cells in as_a_whole(typed):
             sizes = tuple(_size(cells[name]) for name in self.names)
             found.append(Outcome(cause, sizes, frozenset(self.names), None, cells))
         return found

@@ -132,6 +132,7 @@ _WHOLE = {
     "all-signs": "all signs are turned",
     "sign": "the sign is wrong",
     "answer-reversed": "the answers are given in the opposite order",
+    "answer-rearranged": "these are the right numbers, in the wrong order",
     "answer-transposed": "rows and columns are exchanged",
     "answer-scaled": "all entries are wrong by the same factor, {was}",
     "one-minus": "you gave 1 minus the answer",

@@ -110,7 +110,20 @@ def _cause(kind: str, what: str = "", likely: float = 1.0) -> Cause:
     return Cause(kind, weights.ANSWERS[kind] * likely, what=what, on_paper=True)
 
 
-def scaled(typed: Typed) -> WrittenDown:
+def as_a_whole(typed: Typed) -> WrittenDown:
+    """What can be said of the typed numbers only when they are all there."""
+    yield from _scaled(typed)
+    yield from _rearranged(typed)
+
+
+def _rearranged(typed: Typed) -> WrittenDown:
+    """The right numbers in another order, more than two of them elsewhere than they belong."""
+    read = {name: cell.value for name, cell in typed.cells.items() if isinstance(cell, Reading)}
+    if len(typed.wrong) > 2 and sorted(map(str, read.values())) == sorted(map(str, typed.key.values())):
+        yield _cause("answer-rearranged"), read
+
+
+def _scaled(typed: Typed) -> WrittenDown:
     """All entries by the same factor too large: not normalised."""
     key = typed.key
     if isinstance(typed.part.kind, Number) or len(key) < 3 or len(typed.sizes) < len(key):

@@ -328,6 +328,15 @@ def test_of_three_the_opposite_order_is_an_exchange_of_two() -> None:
     assert "opposite" not in diagnosis.sentence
 
 
+@pytest.mark.parametrize(("typed", "named"), [("7/2, 8, 6", False), ("6, 8, 7/2", True), ("8, 7/2, 6", True)])
+def test_right_numbers_in_another_order_are_told_as_that(typed: str, named: bool) -> None:
+    # R₂ = 8, R₁ = 2 + 4 = 6, R₀ = 1/2 + 3 = 7/2, asked for in the order R₀, R₁, R₂
+    exercise = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": ["1/2", 2, 8]}})
+    diagnosis = exercise.diagnose(typed)
+    assert (diagnosis.kind == "answer-rearranged") is named
+    assert ("these are the right numbers, in the wrong order" in diagnosis.sentence) is named
+
+
 def test_a_mistake_that_cannot_be_made_is_not_told() -> None:
     # γ = 1: the ratio is (1/2)/(1/4) · (1/2)/(1/4) = 4, the return 3 + 5 = 8. Without r₁ it is 5, and so it is with γ·i
     # for γⁱ; but nobody multiplies by i where there is no discount.
