@@ -128,6 +128,7 @@ _WHOLE = {
     "unsolved": "the equations are gone through {what}, from 0 on, instead of solved",
     "another-quantity": "you gave {left}, which is not what is asked for",
     "another-quantity…": "you gave {left}, …, which are not what is asked for",
+    "another-part": "you gave the answer to {what}",
     "exchanged-cells": "the answers for {what} are exchanged",
     "all-signs": "all signs are turned",
     "sign": "the sign is wrong",

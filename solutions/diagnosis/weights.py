@@ -61,6 +61,7 @@ ALIKE = (
     {"kept", "summand-left-out", "factor-left-out", "term-left-out"},
     {"halved", "doubled"},
     {"exchanged-cells", "rows-exchanged"},
+    {"another-quantity", "another-part"},
     {"answer-rearranged", "answer-reversed", "answer-transposed"},
     {"reversed", "entries-exchanged"},
     {"twin", "elsewhere", "another-line", "index"},
@@ -130,6 +131,7 @@ HERE_ALONE = 0.5
 #: What happens between the working and the answer.
 ANSWERS = {
     "another-quantity": 3.0,
+    "another-part": 4.0,
     "as-given": 2.0,
     "exchanged-cells": 4.0,
     "all-signs": 9.0,
