@@ -192,6 +192,10 @@ with evaluate(False):
         "modified-convention",
         "Here the turn by θ comes first and the turn by α last; the other order is Craig's modified convention.",
     )
+    ALPHA_TURNED_BACK = Misconception(
+        "alpha-turned-back",
+        "Turning by α about x takes y to (0, cos α, sin α): the signs of sin α were exchanged, which turns it back.",
+    )
     LINK_TRANSFORM = Formula(
         "denavit-hartenberg",
         T_i(i),
@@ -211,6 +215,13 @@ with evaluate(False):
             cos(th(i)), -sin(th(i)), 0, a_link(i),
             sin(th(i)) * cos(al(i)), cos(th(i)) * cos(al(i)), -sin(al(i)), -sin(al(i)) * d(i),
             sin(th(i)) * sin(al(i)), cos(th(i)) * sin(al(i)), cos(al(i)), cos(al(i)) * d(i),
+            0, 0, 0, 1,
+        ),
+        ALPHA_TURNED_BACK: Blocks(
+            4,
+            cos(th(i)), -sin(th(i)) * cos(al(i)), -sin(th(i)) * sin(al(i)), a_link(i) * cos(th(i)),
+            sin(th(i)), cos(th(i)) * cos(al(i)), cos(th(i)) * sin(al(i)), a_link(i) * sin(th(i)),
+            0, -sin(al(i)), cos(al(i)), d(i),
             0, 0, 0, 1,
         ),},)  # fmt: skip
     WRONG_ORDER = Misconception(
@@ -278,11 +289,10 @@ with evaluate(False):
 def rotations() -> tuple[Formula, Formula]:
     """The rotation in a link's transform, and the product of those of several links."""
     with evaluate(False):
-        right, as_craigs = (
-            Blocks(3, *_corner(each)) for each in (LINK_TRANSFORM.right, LINK_TRANSFORM.misread[CRAIGS])
-        )
+        right = Blocks(3, *_corner(LINK_TRANSFORM.right))
+        misread = {mistake: Blocks(3, *_corner(each)) for mistake, each in LINK_TRANSFORM.misread.items()}
         return (
-            replace(LINK_TRANSFORM, left=rotation(i), right=right, misread={CRAIGS: as_craigs}),
+            replace(LINK_TRANSFORM, left=rotation(i), right=right, misread=misread),
             replace(CHAIN, left=R_total, right=R_total * rotation(i), misread={WRONG_ORDER: rotation(i) * R_total}),
         )
 

@@ -667,6 +667,10 @@ with evaluate(False):
     OTHERS_UNCHANGED = Misconception(
         "others-unchanged", "The preferences of the arms that were not pulled move too, the other way."
     )
+    OTHERS_BY_COMPLEMENT = Misconception(
+        "complement-for-the-others",
+        "Only the arm that was pulled moves by 1 − π(a); every other one moves by its own π(a), the other way.",
+    )
     GRADIENT_BANDIT = Formula(
         "gradient-bandit",
         H(a),
@@ -686,6 +690,11 @@ with evaluate(False):
                 Indicator(a, A(n + 1)),
                 H(a) + alpha * r(n + 1) * (1 - pi(a)),
                 H(a) - alpha * r(n + 1) * pi(a),
+            ),
+            OTHERS_BY_COMPLEMENT: Cases(
+                Indicator(a, A(n + 1)),
+                H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)),
+                H(a) - alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)),
             ),
             OTHERS_UNCHANGED: Cases(Indicator(a, A(n + 1)), H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)), H(a)),
         },
