@@ -7,6 +7,7 @@ from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import Value, exact, to_sympy, told
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.found import put_in_found
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.matrices import identity, matrix
@@ -28,8 +29,8 @@ from rldrill.solutions.sheet.bayes import (
 from rldrill.solutions.work import Work
 
 
-def solve(given: Given, work: Work) -> None:
-    """Every step: the belief moved, then weighed with the measurement."""
+def solve(given: Given, work: Work, *, unweighed: bool = False) -> None:
+    """Every step: the belief moved, then weighed with the measurement; ``unweighed`` goes on from the motion alone."""
     mean, covariance = given_matrix(given.mean), given_matrix(given.covariance)
     models: dict[str, Any] = {
         "Ai": given_matrix(given.A), "Bi": given_matrix(given.B), "Ci": given_matrix(given.C),
@@ -61,7 +62,8 @@ def solve(given: Given, work: Work) -> None:
         if event.z is not None:
             known |= {"mean_bar": {time: mean}, "covariance_bar": {time: covariance}}
             known["read"] = {time: given_matrix(event.z)}
-            mean, covariance = _measured(given, work, answer, known)
+            weighed = _measured(given, work, answer, known)
+            mean, covariance = (mean, covariance) if unweighed else weighed
 
 
 def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) -> None:
@@ -108,12 +110,23 @@ def _answered(answer: Answering, mean: Any, covariance: Any) -> tuple[Any, Any]:
     return matrix([[first]]), matrix([[second]])
 
 
+@slip(
+    "measurement-forgotten-after",
+    "Every step goes on from the belief after the measurement before it, not from the prediction.",
+    when=lambda given: given.variance is None and any(event.z is not None for event in given.steps[:-1]),
+)
+def unweighed(given: Given, work: Work) -> None:
+    """Every step from what the motion before has left."""
+    solve(given, work, unweighed=True)
+
+
 MISCONCEPTIONS = (
     GAIN_ON_PREDICTION,
     VARIANCES_FOR_INVERSES,
     PROCESS_NOISE_FORGOTTEN,
     NOISES_EXCHANGED.where_it_shows(),
     SHARE_TAKEN.where_it_shows(),
+    unweighed.where_it_shows(),
 )
 
 

@@ -4,7 +4,8 @@ from typing import Any
 
 from rldrill.problems.control.importance_sampling import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.exact import ONE, ZERO, exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
@@ -20,17 +21,8 @@ from rldrill.solutions.sheet.control import (
     WEIGHTED_IMPORTANCE_SAMPLING,
 )
 from rldrill.solutions.sheet.fundamentals import RETURN
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS = (
-    RATIO_INVERTED,
-    RATIOS_ADDED,
-    WEIGHTED_FOR_ORDINARY,
-    ORDINARY_FOR_WEIGHTED,
-    RATIOS_FORGOTTEN,
-    FIRST_ACTION_ALONE.where_it_shows(),
-    SUM_OF_EPISODES.where_it_shows(),
-)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -51,6 +43,40 @@ def solve(given: Given, work: Work) -> None:
     work.answer(work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))
     if len(runs) > 1:
         work.answer(work.step(WEIGHTED_IMPORTANCE_SAMPLING, **weighing))
+
+
+@slip(
+    "per-decision",
+    "Here the ratio of the whole episode weights its return; weighting each reward with the ratio up to it is another "
+    "estimator, per-decision importance sampling.",
+)
+def per_decision(given: Given, work: Work) -> None:
+    """Every reward with the ratio of the actions up to it, in the ordinary estimate."""
+    ratios, _, *weighted = right_answers(solve, given, work)
+    work.answer(ratios)
+    target, behaviour = knowns.policy(given.target), knowns.policy(given.behaviour)
+    total = ZERO
+    for episode in given.episodes:
+        weight = ONE
+        for state, action, reward in zip(episode.states, episode.actions, episode.rewards, strict=False):
+            weight = weight * target[action, state] / behaviour[action, state]
+            total += weight * exact(reward)
+            weight = weight * exact(given.gamma)
+    work.answer(total / len(given.episodes))
+    for other in weighted:
+        work.answer(other)
+
+
+MISCONCEPTIONS = (
+    RATIO_INVERTED,
+    RATIOS_ADDED,
+    WEIGHTED_FOR_ORDINARY,
+    ORDINARY_FOR_WEIGHTED,
+    RATIOS_FORGOTTEN,
+    FIRST_ACTION_ALONE.where_it_shows(),
+    SUM_OF_EPISODES.where_it_shows(),
+    per_decision.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,8 +1,8 @@
 """What may come out of one application of a formula instead of its value."""
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
-from itertools import groupby
 from math import isclose
 from typing import Any
 
@@ -98,9 +98,12 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
 
 
 def shares(applications: Sequence[Application]) -> set[int]:
-    """The numbers of applications whose values sum to 1 with those beside them: nobody takes more for a share."""
+    """The numbers of applications whose values sum to 1 with others of the same formula: shares of something."""
     found: set[int] = set()
-    for _, alike in groupby(applications, key=lambda each: each.right):
+    of_formula: dict[Expr, list[Application]] = defaultdict(list)
+    for application in applications:
+        of_formula[application.right].append(application)
+    for alike in of_formula.values():
         some: list[int] = []
         total = 0.0
         for application in alike:
@@ -117,7 +120,7 @@ def shares(applications: Sequence[Application]) -> set[int]:
 
 def likely_share(value: Any) -> float:
     """How likely it is that somebody takes a value for a share of 1, with a slip in it."""
-    return 1.0 if abs(approximate(value)) <= 1 else weights.NO_SHARE
+    return 1.0 if 0 <= approximate(value) <= 1 else weights.NO_SHARE
 
 
 def _of_table(application: Application, base: Cause) -> Iterator[Cause]:

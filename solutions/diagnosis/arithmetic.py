@@ -23,8 +23,9 @@ def slips(value: Any) -> Iterator[Slip]:
         yield from _of_rational(value)
     elif hasattr(value, "__neg__") and not is_zero(value):
         yield "sign", -value
-        yield "tenfold", value * 10
-        yield "tenfold", value / 10
+        if isinstance(value, RationalFunction):  # nobody writes π/6 with a decimal point
+            yield "tenfold", value * 10
+            yield "tenfold", value / 10
         yield "one-off", value + 1
         yield "one-off", value - 1
         yield "doubled", value * 2
@@ -58,8 +59,7 @@ def _of_rational(value: fmpq) -> Iterator[Slip]:
     yield "one-off", value + 1
     yield "one-off", value - 1
     if bottom != 1:
-        yield "numerator", fmpq(top + 1, bottom)
-        yield "numerator", fmpq(top - 1, bottom)
+        yield from (("numerator", fmpq(other, bottom)) for other in (top + 1, top - 1) if other)
         yield "denominator", fmpq(top, bottom + 1)
         if bottom > 2:
             yield "denominator", fmpq(top, bottom - 1)

@@ -8,6 +8,7 @@ from msgspec import Struct
 from pydantic import BaseModel, ValidationError
 
 from rldrill.problems.fractions import Fraction
+from rldrill.problems.models import Model, Transition
 
 #: At most so many values of a table are tried one by one.
 _MOST = 24
@@ -61,11 +62,21 @@ def _model(model: BaseModel) -> Changed:
     for one, two in combinations(numbers, 2):
         if fields[one] != fields[two]:
             yield from _again(model, {one: fields[two], two: fields[one]}, "givens-exchanged", f"{one} and {two}")
+    if isinstance(model, Model) and (unpaid := _unpaid_at_the_end(model)) != model.transitions:
+        yield from _again(model, {"transitions": unpaid}, "end-unpaid", "")
     for name, value in fields.items():
         if isinstance(value, bool):
             continue
         for kind, changed, what in _inside(value, name):
             yield from _again(model, {name: changed}, kind, what)
+
+
+def _unpaid_at_the_end(model: Model) -> tuple[Transition, ...]:
+    """The transitions of somebody who takes all that leads to a terminal state for worthless, as that state is."""
+    return tuple(
+        row._replace(reward=Fraction(0)) if row.next in model.terminal and _number(row.reward) else row
+        for row in model.transitions
+    )
 
 
 def _again(model: BaseModel, update: dict[str, Any], kind: str, what: str) -> Changed:
@@ -88,6 +99,8 @@ def _inside(value: Any, name: str) -> Changed:
     elif isinstance(value, dict):
         yield from _of_table(value, name)
     elif isinstance(value, tuple) and not hasattr(value, "_fields"):
+        if (turned := _turned(value)) != value:
+            yield "rows-and-columns", turned, name
         yield from _of_list(value, name)
 
 
@@ -133,8 +146,27 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
                 f"the {ordinal(place)} of the {name}",
             )
         if isinstance(value[place], tuple | BaseModel):
-            for kind, changed, what in _row(value[place], name, place):
+            above = _as_above(value, name, place) if place else ()
+            for kind, changed, what in (*_row(value[place], name, place), *above):
                 yield kind, (*value[:place], changed, *value[place + 1 :]), what
+
+
+def _turned(value: Any) -> Any:
+    """A square table, or each of several, with its rows as columns; anything else as it is."""
+    if not isinstance(value, tuple) or not all(isinstance(row, tuple) and not hasattr(row, "_fields") for row in value):
+        return value
+    if all(len(row) == len(value) and all(map(_number, row)) for row in value):
+        return tuple(zip(*value, strict=True))
+    return tuple(map(_turned, value))
+
+
+def _as_above(value: tuple[Any, ...], name: str, place: int) -> Changed:
+    """One entry of a row taken over from the row above it."""
+    row, above = value[place], value[place - 1]
+    for field in type(row).model_fields if isinstance(row, BaseModel) else ():
+        other = getattr(above, field)
+        if other not in (None, getattr(row, field)) and not isinstance(other, dict):
+            yield from _again(row, {field: other}, "as-above", f"{field} of the {ordinal(place)} of the {name}")
 
 
 def _row(row: Any, name: str, place: int) -> Changed:

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.judging import wrong_cells
+from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.alternatives import LIKELY, hashable, likely, numbers, plain
 from rldrill.solutions.diagnosis.causes import Again, Candidate, Cause
@@ -20,7 +21,7 @@ from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import Typed, approximate, cells_of, equal, may_mean, near, reach
-from rldrill.solutions.diagnosis.written_down import scaled, written_down
+from rldrill.solutions.diagnosis.written_down import as_a_whole, written_down
 
 #: Where an answer is no straight line in a value, so many other values of one application are gone on from.
 _REPLAYS = 150
@@ -129,8 +130,19 @@ class Outcomes:
         self._bearing: list[Application] = []
         self._growth = self._at_applications()
         self._pairs = self._in_turn()
-        for cause, cells in written_down(part, key, search.applications):
+        for cause, cells in (*written_down(part, key, search.applications), *self._of_parts_before()):
             self._keep(cause, cells)
+
+    def _of_parts_before(self) -> Iterator[tuple[Cause, Mapping[str, Any]]]:
+        """The answers to the parts before that have the same cells."""
+        for other in self.search.problem.parts:
+            if other.label == self.part.label:
+                return
+            answer = self.search.work.answers.get(other.label)
+            cells = {} if answer is None else answer_kind(other.kind).cells(answer)
+            if tuple(cells) == self.names and all(map(plain, cells.values())):
+                weight = weights.ANSWERS["another-part"]
+                yield Cause("another-part", weight, what=f"({other.label})", on_paper=True), cells
 
     # Growing ----------------------------------------------------------------------------------------
     def grow(self, clock: Clock) -> bool:
@@ -296,7 +308,7 @@ class Outcomes:
     def giving(self, typed: Typed) -> list[Outcome]:
         """The causes that give what was typed."""
         found = [outcome for outcome in self.single.near(typed) if self._gives(outcome, typed)]
-        for cause, cells in scaled(typed):
+        for cause, cells in as_a_whole(typed):
             sizes = tuple(_size(cells[name]) for name in self.names)
             found.append(Outcome(cause, sizes, frozenset(self.names), None, cells))
         return found

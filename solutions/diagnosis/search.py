@@ -20,9 +20,11 @@ from rldrill.solutions.diagnosis.alternatives import (
     likely_share,
     numbers,
     of_numbers,
+    plain,
     shares,
     single,
     terms,
+    value_or_none,
 )
 from rldrill.solutions.diagnosis.causes import Candidate, Cause
 from rldrill.solutions.diagnosis.clock import Clock
@@ -203,8 +205,27 @@ class Search:
                     for name, value in known.items()}  # fmt: skip
 
         yield from self._candidate(Cause("stale", weights.PROCEDURE["stale"]), Change(habit=stale))
+        if (values := self._all_from_the_first()) is not None:
+            yield from self._candidate(Cause("stale", weights.PROCEDURE["stale"]), Change(values=values))
         yield from self._candidate(Cause("early", weights.PROCEDURE["early"]), Change(habit=early))
         yield from self._rounds()
+
+    def _all_from_the_first(self) -> Mapping[int, Any] | None:
+        """The values of updates that are all worked out with the first table, then made one on top of the other."""
+        values: dict[int, Any] = {}
+        reached: dict[Any, Any] = {}
+        for application in self.applications:
+            start, old = application.first, application.old()
+            if start is None or not plain(old):
+                continue
+            left, known = application.formula.left, application.known
+            key = left.func.code, str(application.step.left.args)
+            first = value_or_none(left, {**known, left.func.code: start})
+            moved = value_or_none(application.right, {**known, left.func.code: start})
+            if not plain(first) or not plain(moved):
+                return None
+            reached[key] = values[application.number] = reached.get(key, first) + moved - first
+        return values if len(values) > len(reached) else None
 
     def _rounds(self) -> Iterator[Candidate]:
         """The last or the first round of updates left out: every quantity keeps what it was."""
@@ -316,10 +337,13 @@ class Search:
 
     @staticmethod
     def _in_a_share(cause: Cause) -> Cause:
-        """A cause in one share of several: no slip makes it larger than 1, and a formula is misread for all of them."""
-        if cause.mistake is not None:
-            return replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
-        if cause.edit is not None or cause.kind not in weights.SLIPS:  # a point or a digit slips in any number
+        """A cause in one share of several: no slip makes it negative or larger than 1.
+
+        A formula is misread for all of them, and what they are divided by is worked out once.
+        """
+        if cause.mistake is not None or cause.term:
+            cause = replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
+        if cause.kind in ("tenfold", "digits"):  # a point or a digit slips in any number
             return cause
         return replace(cause, weight=cause.weight * likely_share(cause.became))
 

@@ -61,12 +61,16 @@ ALIKE = (
     {"kept", "summand-left-out", "factor-left-out", "term-left-out"},
     {"halved", "doubled"},
     {"exchanged-cells", "rows-exchanged"},
+    {"another-quantity", "another-part"},
+    {"answer-rearranged", "answer-reversed", "answer-transposed"},
     {"reversed", "entries-exchanged"},
     {"twin", "elsewhere", "another-line", "index"},
     {"other-taken", "min-for-max", "elsewhere", "another-line", "choice"},
 )
 #: Slips of arithmetic that are told in the same words.
 SLIPS = frozenset(("numerator", "denominator", "one-off", "doubled", "halved"))
+#: Slips of a sign.
+SIGNS = frozenset(("sign", "summand-sign", "difference", "minus-lost"))
 #: How much less likely it is that somebody takes 1 − x for x where x is no share of 1.
 NO_SHARE = 0.05
 #: How much less likely an edit is at one application alone, and in one term of a sum alone.
@@ -108,6 +112,9 @@ PROCEDURE = {
     "one-too-few": 4.0,
     "givens-exchanged": 2.0,
     "rows-exchanged": 1.0,
+    "rows-and-columns": 3.0,
+    "as-above": 1.0,
+    "end-unpaid": 6.0,
     "minus-lost": 3.0,
     "complement": 1.0,
     "reversed": 1.5,
@@ -124,11 +131,13 @@ HERE_ALONE = 0.5
 #: What happens between the working and the answer.
 ANSWERS = {
     "another-quantity": 3.0,
+    "another-part": 4.0,
     "as-given": 2.0,
     "exchanged-cells": 4.0,
     "all-signs": 9.0,
     "sign": 9.0,
     "answer-reversed": 5.0,
+    "answer-rearranged": 4.0,
     "answer-transposed": 5.0,
     "answer-scaled": 0.4,
     "one-minus": 6.0,

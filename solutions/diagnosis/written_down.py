@@ -6,10 +6,12 @@ from itertools import combinations
 from math import isclose
 from typing import Any
 
+from sympy import Expr
+
 from rldrill.problems.parts import Matrix, Number, Numbers, Part
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
-from rldrill.solutions.diagnosis.alternatives import likely_share, plain
+from rldrill.solutions.diagnosis.alternatives import hashable, likely_share, plain
 from rldrill.solutions.diagnosis.arithmetic import slips
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import Application
@@ -46,8 +48,9 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
         share = is_rational(value) and 0 < value < 1
         yield _cause("one-minus", likely=1.0 if share else weights.NO_SHARE), {name: 1 - value}
         yield _cause("percent"), {name: value * 100}
+        asked = _asked(key, applications)
         for application in applications:
-            if plain(application.value):
+            if plain(application.value) and application.step.left not in asked:
                 weight = weights.ANSWERS["another-quantity"]
                 yield Cause("another-quantity", weight, application, on_paper=True), {name: application.value}
     shape = part.kind
@@ -68,14 +71,23 @@ def _other_quantities(key: Mapping[str, Any], applications: Sequence[Application
     for application in applications:
         if application.formula.sign == "=":  # an update's values are those of a table that is asked for in the end
             by_formula[application.formula].append(application)
+    asked = _asked(key, applications)
     for alike in by_formula.values():
         for start in range(0, len(alike) - len(key) + 1, len(key)):
             several = alike[start : start + len(key)]
+            if {each.step.left for each in several} <= asked:
+                continue
             if all(plain(each.value) and _is_of(each, name) for each, name in zip(several, key, strict=True)):
                 cause = Cause(
                     "another-quantity", weights.ANSWERS["another-quantity"], several[0], what="…", on_paper=True
                 )
                 yield cause, {name: each.value for name, each in zip(key, several, strict=True)}
+
+
+def _asked(key: Mapping[str, Any], applications: Sequence[Application]) -> set[Expr]:
+    """What the answer is called in the working: who gives an earlier value of that gives nothing else."""
+    values = set(map(hashable, key.values()))
+    return {each.step.left for each in applications if plain(each.value) and hashable(each.value) in values}
 
 
 def _as_given(key: Mapping[str, Any], applications: Sequence[Application]) -> WrittenDown:
@@ -110,7 +122,20 @@ def _cause(kind: str, what: str = "", likely: float = 1.0) -> Cause:
     return Cause(kind, weights.ANSWERS[kind] * likely, what=what, on_paper=True)
 
 
-def scaled(typed: Typed) -> WrittenDown:
+def as_a_whole(typed: Typed) -> WrittenDown:
+    """What can be said of the typed numbers only when they are all there."""
+    yield from _scaled(typed)
+    yield from _rearranged(typed)
+
+
+def _rearranged(typed: Typed) -> WrittenDown:
+    """The right numbers in another order, more than two of them elsewhere than they belong."""
+    read = {name: cell.value for name, cell in typed.cells.items() if isinstance(cell, Reading)}
+    if len(typed.wrong) > 2 and sorted(map(str, read.values())) == sorted(map(str, typed.key.values())):
+        yield _cause("answer-rearranged"), read
+
+
+def _scaled(typed: Typed) -> WrittenDown:
     """All entries by the same factor too large: not normalised."""
     key = typed.key
     if isinstance(typed.part.kind, Number) or len(key) < 3 or len(typed.sizes) < len(key):

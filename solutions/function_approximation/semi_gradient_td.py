@@ -6,6 +6,7 @@ from typing import Any
 from rldrill.problems.function_approximation.semi_gradient_td import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
@@ -24,11 +25,11 @@ from rldrill.solutions.softmax import by_number
 from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (THROUGH_THE_TARGET, FEATURES_OF_NEXT, SARSA_THROUGH_THE_TARGET, SARSA_FEATURES_OF_NEXT)
 
-
-def solve(given: Given, work: Work) -> None:
-    """The errors first, with the weights that they are found with; then the last of the weights."""
+def solve(given: Given, work: Work, *, stale: bool = False) -> None:
+    """The errors first, with the weights that they are found with, ``stale`` ones with the first weights; then the last
+    of the weights.
+    """
     run = given.trajectory
     known = knowns.trajectory(run) | {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
     known |= (_stacked if given.actions else _plain)(given)
@@ -40,7 +41,7 @@ def solve(given: Given, work: Work) -> None:
     current = theta
     for time in range(last + 1):
         known["delta"] = dict(enumerate(errors))
-        if time:
+        if time and not stale:
             current = work.step(step, t=time - 1, theta_vector=current, **known)
         errors.append(_error(given, work, known, current, time))
     known["delta"] = dict(enumerate(work.answer(tuple(errors))))
@@ -48,6 +49,25 @@ def solve(given: Given, work: Work) -> None:
     for time in range(last):  # these steps stand in the working of (a) already
         theta = work.value(step, t=time, theta_vector=theta, **known)
     work.answer(tuple(work.step(step, t=last, theta_vector=theta, **known)))
+
+
+@slip(
+    "stale-weights",
+    "Each TD error is found with the weights that the step before has left, not with the first ones.",
+    when=lambda given: len(given.trajectory.rewards) > 1,
+)
+def stale_weights(given: Given, work: Work) -> None:
+    """All errors with the weights before the run."""
+    solve(given, work, stale=True)
+
+
+MISCONCEPTIONS = (
+    THROUGH_THE_TARGET,
+    FEATURES_OF_NEXT,
+    SARSA_THROUGH_THE_TARGET,
+    SARSA_FEATURES_OF_NEXT,
+    stale_weights.where_it_shows(),
+)
 
 
 def _error(given: Given, work: Work, known: Mapping[str, Any], theta: Vector, time: int) -> Value:

@@ -38,6 +38,7 @@ def solve(given: Given, work: Work) -> None:
     known: dict[str, Any] = {
         "P": P,
         "successors": reached,
+        "states": states,
         "actions": {
             state: tuple(action for action, chance in given.policy[state].items() if chance) for state in states
         },
@@ -57,7 +58,7 @@ def solve(given: Given, work: Work) -> None:
         if given.matched is None:
             answer = work.answer(answer)
         expectations |= {(index, state): value for state, value in answer.items()}
-    begins = {"start_chance": knowns.values(given.start_chances), "states": states, "mu_of": expectations}
+    begins = {"start_chance": knowns.values(given.start_chances), "states": known["states"], "mu_of": expectations}
     total = tuple(work.step(FEATURES_FROM_START, component=index, **begins) for index in range(1, given.size + 1))
     if given.matched is None:
         work.answer(total if len(total) > 1 else total[0])

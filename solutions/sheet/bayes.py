@@ -281,6 +281,9 @@ with evaluate(False):
     PROCESS_NOISE_FORGOTTEN = Misconception(
         "process-noise-forgotten", "Every motion adds the variance of its own noise to the belief.", when=_is_noisy
     )
+    NOISE_SQUARED = Misconception(
+        "noise-squared", "R is a variance already: it is added as it is, not squared.", when=_on_a_line
+    )
     KALMAN_MOVE_COVARIANCE = Formula(
         "kalman-predict-covariance",
         covariance_bar(t),
@@ -293,6 +296,7 @@ with evaluate(False):
         misread={
             PROCESS_NOISE_FORGOTTEN: Ai * covariance(t - 1) * Transposed(Ai),
             NOISES_EXCHANGED: Ai * covariance(t - 1) * Transposed(Ai) + Qi,
+            NOISE_SQUARED: Ai * covariance(t - 1) * Transposed(Ai) + Ri**2,
         },
     )
     VARIANCES_FOR_INVERSES = Misconception(
@@ -595,6 +599,10 @@ with evaluate(False):
         * factorial(beta_b + tails - 1)
         / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1))
     )
+    PRIOR_NOT_NORMALISED = Misconception(
+        "prior-not-normalised",
+        "The density of Beta(a, b) integrates to 1: its constant (a + b − 1)!/((a − 1)!(b − 1)!) belongs to it.",
+    )
     EVIDENCE = Formula(
         "evidence",
         evidence(M),
@@ -609,6 +617,9 @@ with evaluate(False):
             BEST_FIT: (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
             MEAN_OF_PRIOR: (beta_a / (beta_a + beta_b)) ** heads * (beta_b / (beta_a + beta_b)) ** tails,
             BINOMIAL: _ORDERS * _MEAN_LIKELIHOOD,
+            PRIOR_NOT_NORMALISED: factorial(beta_a + heads - 1)
+            * factorial(beta_b + tails - 1)
+            / factorial(beta_a + beta_b + heads + tails - 1),
         },
     )
     PRIORS_FORGOTTEN = Misconception(
@@ -617,6 +628,9 @@ with evaluate(False):
     SHARE_FOR_ODDS = Misconception(
         "share-for-odds",
         "Odds divide the one posterior probability by the other; divided by the sum of both it is a probability.",
+    )
+    PRIORS_UPSIDE_DOWN = Misconception(
+        "priors-upside-down", "Each evidence is multiplied by the prior of its own model, not by that of the other one."
     )
     POSTERIOR_ODDS = Formula(
         "posterior-odds",
@@ -628,6 +642,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             PRIORS_FORGOTTEN: evidence(first_model) / evidence(second_model),
+            PRIORS_UPSIDE_DOWN: evidence(first_model) * p(second_model) / (evidence(second_model) * p(first_model)),
             SHARE_FOR_ODDS: evidence(first_model)
             * p(first_model)
             / (evidence(first_model) * p(first_model) + evidence(second_model) * p(second_model)),
@@ -701,7 +716,8 @@ def uniform_evidence() -> Formula:
     """The evidence of a coin whose θ has a uniform prior."""
     with evaluate(False):
         right = factorial(heads) * factorial(tails) / factorial(heads + tails + 1)
-        return replace(EVIDENCE, right=right, also=(), note="", misread={**EVIDENCE.misread, BINOMIAL: _ORDERS * right})
+        misread = {**EVIDENCE.misread, BINOMIAL: _ORDERS * right, PRIOR_NOT_NORMALISED: right}  # it is 1 all over
+        return replace(EVIDENCE, right=right, also=(), note="", misread=misread)
 
 
 @cache

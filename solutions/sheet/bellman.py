@@ -70,6 +70,11 @@ with evaluate(False):
         "Each reward counts with the probability of its transition, as the value of the next state does.",
         when=lambda given: any(row.probability != 1 and row.reward for row in _rows(given)),
     )
+    BEST_OUTCOME = Misconception(
+        "best-outcome",
+        "The agent chooses the action, chance the next state: the ways of one action are averaged with P.",
+        when=lambda given: any(row.probability != 1 for row in _rows(given)),
+    )
     REWARD_UNWEIGHTED = SumOver(R(s, a, s1) + P(s, a, s1) * gamma * V(s1), s1, Successors(s, a))
     FORGOT_POLICY = Misconception(
         "forgot-policy", "Each action counts with the probability π(a|s) with which the policy takes it."
@@ -201,6 +206,12 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.19",
         hint="Take the best action: the greatest of the actions' averages.",
         also=(MaxOver(Qstar(s, a), a, Actions(s)),),
+        misread={
+            BEST_OUTCOME: MaxOver(MaxOver(R(s, a, s1) + gamma * Vstar(s1), s1, Successors(s, a)), a, Actions(s)),
+            Q_REWARD_UNWEIGHTED: MaxOver(
+                SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vstar(s1), s1, Successors(s, a)), a, Actions(s)
+            ),
+        },
     )
     OPTIMAL_Q_BY_VALUE = Misconception(
         "by-next-value-alone", "The reward on the way counts too: add γ times the best next value to it."
@@ -231,6 +242,9 @@ with evaluate(False):
                 s1,
                 Successors(s, a),
             ),
+            Q_REWARD_UNWEIGHTED: SumOver(
+                R(s, a, s1) + P(s, a, s1) * gamma * MaxOver(Qstar(s1, a1), a1, Actions(s1)), s1, Successors(s, a)
+            ),
         },
     )
     MEAN_OF_Q_STAR = Misconception(
@@ -240,6 +254,10 @@ with evaluate(False):
     POLICY_FOR_MAX = Misconception(
         "policy-for-max",
         "The optimal value does not depend on the given policy: it is the greatest action value.",
+    )
+    WEIGHTED_BEST = Misconception(
+        "best-one-weighted",
+        "An optimal policy takes the best action for sure: the optimal value is its whole value, not π(a|s) times it.",
     )
     V_STAR_FROM_Q = Formula(
         "optimal-v-from-q",
@@ -252,6 +270,7 @@ with evaluate(False):
         misread={
             MEAN_OF_Q_STAR: MeanOver(Qstar(s, a), a, Actions(s)),
             POLICY_FOR_MAX: SumOver(pi(a, s) * Qstar(s, a), a, Actions(s)),
+            WEIGHTED_BEST: MaxOver(pi(a, s) * Qstar(s, a), a, Actions(s)),
         },
     )
     Q_STAR_FROM_V = Formula(

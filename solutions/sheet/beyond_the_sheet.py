@@ -45,6 +45,7 @@ with evaluate(False):
         "absolute-for-relative-angles",
         "A joint's angle counts from the link before: the angles of all joints up to the link are added.",
     )
+    ABSOLUTE_IN_A_FRAME = Misconception("absolute-angles-in-a-frame", ABSOLUTE_ANGLES.says)
     LINK_ANGLE = Formula(
         "link-angle",
         phi(i),
@@ -164,8 +165,9 @@ def poses(*, moved: bool) -> tuple[Formula, Formula, Formula]:
     """The angle and the end of any link, perhaps on a base that is moved and turned."""
     with evaluate(False):
         turned = (phi(0),) if moved else ()
+        right, absolute = Add(*turned, SumOver(theta(j), j, Counting(1, i))), Add(*turned, theta(i))
         return (
-            replace(LINK_ANGLE, right=Add(*turned, SumOver(theta(j), j, Counting(1, i))), misread={}),
+            replace(LINK_ANGLE, right=right, misread={ABSOLUTE_IN_A_FRAME: absolute}),
             _end(FORWARD_X, x_of(n), (x0,) if moved else (), cos),
             _end(FORWARD_Y, y_of(n), (y0,) if moved else (), sin),
         )
@@ -190,6 +192,10 @@ with evaluate(False):
         "modified-convention",
         "Here the turn by θ comes first and the turn by α last; the other order is Craig's modified convention.",
     )
+    ALPHA_TURNED_BACK = Misconception(
+        "alpha-turned-back",
+        "Turning by α about x takes y to (0, cos α, sin α): the signs of sin α were exchanged, which turns it back.",
+    )
     LINK_TRANSFORM = Formula(
         "denavit-hartenberg",
         T_i(i),
@@ -209,6 +215,13 @@ with evaluate(False):
             cos(th(i)), -sin(th(i)), 0, a_link(i),
             sin(th(i)) * cos(al(i)), cos(th(i)) * cos(al(i)), -sin(al(i)), -sin(al(i)) * d(i),
             sin(th(i)) * sin(al(i)), cos(th(i)) * sin(al(i)), cos(al(i)), cos(al(i)) * d(i),
+            0, 0, 0, 1,
+        ),
+        ALPHA_TURNED_BACK: Blocks(
+            4,
+            cos(th(i)), -sin(th(i)) * cos(al(i)), -sin(th(i)) * sin(al(i)), a_link(i) * cos(th(i)),
+            sin(th(i)), cos(th(i)) * cos(al(i)), cos(th(i)) * sin(al(i)), a_link(i) * sin(th(i)),
+            0, -sin(al(i)), cos(al(i)), d(i),
             0, 0, 0, 1,
         ),},)  # fmt: skip
     WRONG_ORDER = Misconception(
@@ -238,6 +251,9 @@ with evaluate(False):
         place=Place.WORKING,
         misread={CRAIGS: Blocks(3, a_link(i), -sin(al(i)) * d(i), cos(al(i)) * d(i))},
     )
+    ORIGIN_TURNED = Misconception(
+        "origin-turned", "The origin is given in the frame before: it is added after the rotation, and not turned."
+    )
     FORWARD_POINT = Formula(
         "frame-point",
         point(i - 1),
@@ -247,6 +263,9 @@ with evaluate(False):
         hint="Turn it by the rotation of the link's transform, then add the transform's last column.",
         note="$T_i$ has the rotation $R_i$ and the origin $o_i$.",
         place=Place.WORKING,
+        misread={
+            ORIGIN_TURNED: rotation(i) * (point(i) + origin(i)),
+        },
     )
     NOT_INVERTED = Misconception(
         "not-inverted",
@@ -270,11 +289,10 @@ with evaluate(False):
 def rotations() -> tuple[Formula, Formula]:
     """The rotation in a link's transform, and the product of those of several links."""
     with evaluate(False):
-        right, as_craigs = (
-            Blocks(3, *_corner(each)) for each in (LINK_TRANSFORM.right, LINK_TRANSFORM.misread[CRAIGS])
-        )
+        right = Blocks(3, *_corner(LINK_TRANSFORM.right))
+        misread = {mistake: Blocks(3, *_corner(each)) for mistake, each in LINK_TRANSFORM.misread.items()}
         return (
-            replace(LINK_TRANSFORM, left=rotation(i), right=right, misread={CRAIGS: as_craigs}),
+            replace(LINK_TRANSFORM, left=rotation(i), right=right, misread=misread),
             replace(CHAIN, left=R_total, right=R_total * rotation(i), misread={WRONG_ORDER: rotation(i) * R_total}),
         )
 

@@ -332,6 +332,10 @@ with evaluate(False):
         "shared-among-the-others",
         "Exploring picks among all |A| actions, the greedy one too, not among the other |A| − 1.",
     )
+    EXPLORING_FORGOTTEN = Misconception(
+        "exploring-forgotten",
+        "What is left beside 1 − ε is not lost: with probability ε one of all |A| actions is taken, which counts too.",
+    )
     EPSILON_GREEDY = Formula(
         "epsilon-greedy",
         pi(a, s),
@@ -342,6 +346,7 @@ with evaluate(False):
         misread={
             SHARE_FORGOTTEN: Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / Size(Actions(s))),
             SHARED_AMONG_OTHERS: Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / (Size(Actions(s)) - 1)),
+            EXPLORING_FORGOTTEN: Cases(Indicator(a, Best(s)), 1 - epsilon, 0),
         },
     )
 
@@ -584,6 +589,9 @@ with evaluate(False):
     ROOT_FORGOTTEN = Misconception(
         "root-forgotten", "The bonus is c times the square root of (ln t)/N(a), not c times the quotient itself."
     )
+    COUNT_OUTSIDE_THE_ROOT = Misconception(
+        "count-outside-the-root", "N(a) stands under the root, too: the bonus shrinks as 1/√N(a), not as 1/N(a)."
+    )
     UCB = Formula(
         "ucb",
         U(a),
@@ -598,6 +606,7 @@ with evaluate(False):
             OWN_COUNT_FORGOTTEN: Q(a) + c * sqrt(log(t)),
             PULLS_FOR_TIME: Q(a) + c * sqrt(log(t - 1) / N(a)),
             LOG_10_IN_UCB: Q(a) + c * sqrt(log(t) / log(10) / N(a)),
+            COUNT_OUTSIDE_THE_ROOT: Q(a) + c * sqrt(log(t)) / N(a),
         },
     )
     UCB_ARM = Formula(
@@ -622,6 +631,7 @@ with evaluate(False):
             TIME_FOR_LOG: (Q(a) - Q(b)) / (sqrt(t / N(b)) - sqrt(t / N(a))),
             ROOT_FORGOTTEN: (Q(a) - Q(b)) / (log(t) / N(b) - log(t) / N(a)),
             PULLS_FOR_TIME: (Q(a) - Q(b)) / (sqrt(log(t - 1) / N(b)) - sqrt(log(t - 1) / N(a))),
+            COUNT_OUTSIDE_THE_ROOT: (Q(a) - Q(b)) / (sqrt(log(t)) / N(b) - sqrt(log(t)) / N(a)),
         },
     )
 
@@ -657,6 +667,10 @@ with evaluate(False):
     OTHERS_UNCHANGED = Misconception(
         "others-unchanged", "The preferences of the arms that were not pulled move too, the other way."
     )
+    OTHERS_BY_COMPLEMENT = Misconception(
+        "complement-for-the-others",
+        "Only the arm that was pulled moves by 1 − π(a); every other one moves by its own π(a), the other way.",
+    )
     GRADIENT_BANDIT = Formula(
         "gradient-bandit",
         H(a),
@@ -676,6 +690,11 @@ with evaluate(False):
                 Indicator(a, A(n + 1)),
                 H(a) + alpha * r(n + 1) * (1 - pi(a)),
                 H(a) - alpha * r(n + 1) * pi(a),
+            ),
+            OTHERS_BY_COMPLEMENT: Cases(
+                Indicator(a, A(n + 1)),
+                H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)),
+                H(a) - alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)),
             ),
             OTHERS_UNCHANGED: Cases(Indicator(a, A(n + 1)), H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)), H(a)),
         },

@@ -38,6 +38,7 @@ from rldrill.solutions.formula.notation import (
 from rldrill.solutions.sheet import bellman
 from rldrill.solutions.sheet.bellman import (
     ACTIONS_ALIKE,
+    BEST_OUTCOME,
     DISCOUNTED_REWARD,
     FORGOT_GAMMA,
     FORGOT_POLICY,
@@ -156,6 +157,7 @@ with evaluate(False):
             MEAN_FOR_MAX: MeanOver(LOOKAHEAD, a, Actions(s)),
             FORGOT_GAMMA: MaxOver(WITHOUT_GAMMA, a, Actions(s)),
             Q_REWARD_UNWEIGHTED: MaxOver(REWARD_UNWEIGHTED, a, Actions(s)),
+            BEST_OUTCOME: MaxOver(MaxOver(R(s, a, s1) + gamma * V(s1), s1, Successors(s, a)), a, Actions(s)),
         },
     )
 

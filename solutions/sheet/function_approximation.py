@@ -172,6 +172,9 @@ with evaluate(False):
     WIDTH_DOUBLED = Misconception(
         "width-doubled", "The feature falls from 1 to 0 within the distance b from its centre, not within 2b."
     )
+    WIDTH_HALVED = Misconception(
+        "width-halved", "The feature reaches 0 at the distance b from its centre, not at b/2 already."
+    )
     PIECEWISE_LINEAR_RBF = Formula(
         "piecewise-linear-rbf",
         phi(i, s),
@@ -185,6 +188,7 @@ with evaluate(False):
             WIDTH_AND_CLAMP_FORGOTTEN: 1 - distance(i),
             TENT_SQUARED: Greatest(Zero, 1 - (distance(i) / width) ** 2),
             WIDTH_DOUBLED: Greatest(Zero, 1 - distance(i) / (2 * width)),
+            WIDTH_HALVED: Greatest(Zero, 1 - 2 * distance(i) / width),
         },
     )
     TENT_INSIDE = Formula(

@@ -148,6 +148,10 @@ with evaluate(False):
         "The discount of a reward i steps later is the power γⁱ, not the product γ·i.",
         when=lambda given: given.gamma != 1,
     )
+    DISCOUNTED_FROM_START = Misconception(
+        "discounted-from-the-start",
+        "The return from time t discounts the rewards by the steps from t on, not from the start of the episode.",
+    )
     RETURN = Formula(
         "return",
         G(t),
@@ -161,6 +165,7 @@ with evaluate(False):
             STARTS_EARLY: SumOver(gamma**i * r(t + i), i, _ALL),
             UNDISCOUNTED: SumOver(r(t + 1 + i), i, _ALL),
             LINEAR_DISCOUNT: SumOver(gamma * i * r(t + 1 + i), i, _ALL),
+            DISCOUNTED_FROM_START: SumOver(gamma ** (t + i) * r(t + 1 + i), i, _ALL),
         },
     )
 

@@ -114,6 +114,9 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 2",
         hint="Discount the features of the states along every trajectory from t = 0 on, then average the trajectories.",
     )
+    FEATURES_AVERAGED = Misconception(
+        "averaged-along", "Along a trajectory the discounted features are added up, not averaged over its states."
+    )
     FEATURES_ALONG = Formula(
         "features-along",
         mu_along(j, run),
@@ -125,6 +128,9 @@ with evaluate(False):
         misread={
             FEATURES_UNDISCOUNTED: SumOver(phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
             FEATURES_EARLY: SumOver(gamma ** (t + 1) * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+            FEATURES_AVERAGED: 1
+            / (Last(run) + 1)
+            * SumOver(gamma**t * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
         },
     )
     STATES_COUNTED = Misconception(
@@ -150,6 +156,9 @@ with evaluate(False):
     START_NOT_COUNTED = Misconception(
         "start-not-counted", "The sum begins with the features of s₀ itself, undiscounted, not with those of s₁."
     )
+    WAYS_TRANSPOSED = Misconception(
+        "ways-transposed", "π and P give the probability to go from s to s′; it was read from s′ to s."
+    )
     FEATURES_FROM = Formula(
         "feature-expectations-from",
         mu_of(j, s),
@@ -164,6 +173,8 @@ with evaluate(False):
             * SumOver(
                 pi(a, s) * SumOver(P(s, a, s1) * (phi(j, s1) + mu_of(j, s1)), s1, Successors(s, a)), a, Actions(s)
             ),
+            WAYS_TRANSPOSED: phi(j, s)
+            + gamma * SumOver(SumOver(pi(a, s1) * P(s1, a, s), a, Actions(s1)) * mu_of(j, s1), s1, States),
         },
     )
     START_IGNORED = Misconception(

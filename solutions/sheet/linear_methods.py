@@ -223,6 +223,9 @@ with evaluate(False):
         "What comes after this step is discounted: γ stands wherever the next value does.",
         when=lambda given: given.gamma != 1,
     )
+    CROSS_TERM_FORGOTTEN = Misconception(
+        "cross-term-forgotten", "N couples state and action: it belongs to the gain, and so to the value."
+    )
     LQR_RICCATI = Formula(
         "lqr-riccati",
         Pt(t),
@@ -294,6 +297,10 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
         turned = Mul(*ahead, Transposed(A), after, B)
         bracket = R + square if notation.costs else square - R
         transposed = Mul(*ahead, Transposed(B), after, Transposed(A))
+        kept = (Q if notation.costs else -Q) + Mul(*ahead, Transposed(A), after, A)
+        gain_alone = {CROSS_TERM_FORGOTTEN: Pow(bracket, -1) * both} if crossed else {}
+        value_alone = {CROSS_TERM_FORGOTTEN: kept - turned * gain(t)} if crossed else {}
+        product_alone = {CROSS_TERM_FORGOTTEN: both} if crossed else {}
         if crossed:
             both, turned = (both + Transposed(N), turned + N) if notation.costs else (both - Transposed(N), turned - N)
             transposed = transposed + Transposed(N) if notation.costs else transposed - Transposed(N)
@@ -313,14 +320,16 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 left=gain(t),
                 right=Pow(bracket, -1) * both,
                 misread={forgot: Pow(square, -1) * both, TRANSPOSED_A: Pow(bracket, -1) * transposed}
-                | ({NEXT_NOT_DISCOUNTED: plain.gain.right} if plain else {}),
+                | ({NEXT_NOT_DISCOUNTED: plain.gain.right} if plain else {})
+                | gain_alone,
             ),
             replace(
                 LQR_RICCATI,
                 left=value(t),
-                right=(Q if notation.costs else -Q) + Mul(*ahead, Transposed(A), after, A) - turned * gain(t),
+                right=kept - turned * gain(t),
                 misread=({} if crossed else {price: looped})
-                | ({NEXT_NOT_DISCOUNTED: plain.riccati.right} if plain else {}),
+                | ({NEXT_NOT_DISCOUNTED: plain.riccati.right} if plain else {})
+                | value_alone,
             ),
             replace(
                 LQR_ACTION,
@@ -329,7 +338,11 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 misread={ACTION_SIGN: gain(t) * state(t)},
             ),
             replace(LQR_BRACKET, right=bracket, misread={NEXT_NOT_DISCOUNTED: plain.bracket.right} if plain else {}),
-            replace(LQR_PRODUCT, right=both, misread={NEXT_NOT_DISCOUNTED: plain.product.right} if plain else {}),
+            replace(
+                LQR_PRODUCT,
+                right=both,
+                misread=({NEXT_NOT_DISCOUNTED: plain.product.right} if plain else {}) | product_alone,
+            ),
             replace(LQR_SOLVED, left=gain(t)),
         )
 
@@ -538,9 +551,12 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
         quadratic = Add(square, -b * P if costs else b * P, -product)
         root = b + sqrt(b**2 + Mul(4, *ahead, B**2, product))
         near = scalar_system(notation, discounted=False, crossed=crossed, modes=modes) if discounted else None
+        uncrossed = scalar_system(notation, discounted=discounted, crossed=False, modes=modes) if crossed else None
         misread = {OTHER_ROOT: -(b - sqrt(b**2 + 4 * B**2 * Q * R)) / (2 * B**2)} if plain else {}
         if near:
             misread[NEXT_NOT_DISCOUNTED] = near.root.right
+        if uncrossed:
+            misread[CROSS_TERM_FORGOTTEN] = uncrossed.root.right
         best = Mul(turned, Pow(bracket, -1))
         cost_to_go = {POSITIVE_S: Mul(-1, B, P, A, Pow(-(B**2) * P - R, -1))} if plain else {}
         return ScalarSystem(
@@ -558,7 +574,8 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
                 left=b,
                 right=beta_right,
                 note="",
-                misread={NEXT_NOT_DISCOUNTED: near.beta.right} if near else {},
+                misread=({NEXT_NOT_DISCOUNTED: near.beta.right} if near else {})
+                | ({CROSS_TERM_FORGOTTEN: uncrossed.beta.right} if uncrossed else {}),
             ),
             quadratic,
             LQR_ROOT
@@ -570,7 +587,12 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
                 misread=misread,
                 note="",
             ),
-            replace(LQR_STATIONARY_GAIN, left=L, right=best, misread=cost_to_go),
+            replace(
+                LQR_STATIONARY_GAIN,
+                left=L,
+                right=best,
+                misread=cost_to_go | ({CROSS_TERM_FORGOTTEN: uncrossed.gain.right} if uncrossed else {}),
+            ),
             replace(LQR_CLOSED_LOOP, left=loop, right=A - B * L, misread={}),
         )
 
@@ -597,6 +619,7 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
         turned = Mul(*ahead, Transposed(Ai), value, Bi)
         square, both = Mul(*ahead, Transposed(Bi), value, Bi), Mul(*ahead, Transposed(Bi), value, Ai)
         bracket = Ri + square if notation.costs else square - Ri
+        uncrossed = {CROSS_TERM_FORGOTTEN: Pow(bracket, -1) * both} if crossed else {}
         if crossed:
             turned = turned + (Ni if notation.costs else -Ni)
             both = both + Transposed(Ni) if notation.costs else both - Transposed(Ni)
@@ -611,7 +634,7 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
                 LQR_STATIONARY_GAIN,
                 left=gain,
                 right=Pow(bracket, -1) * both,
-                misread={NEXT_NOT_DISCOUNTED: plain.gain.right} if plain else {},
+                misread=({NEXT_NOT_DISCOUNTED: plain.gain.right} if plain else {}) | uncrossed,
             ),
             replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain, misread={LOOP_WITH_PLUS: Ai + Bi * gain}),
         )

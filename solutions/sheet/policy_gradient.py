@@ -26,12 +26,14 @@ from rldrill.solutions.formula.notation import (
     A,
     Actions,
     ArgMaxOver,
+    Cases,
     Choices,
     Clipped,
     Counting,
     Expected,
     Features,
     Greatest,
+    Indicator,
     Least,
     MeanOver,
     P,
@@ -350,6 +352,10 @@ with evaluate(False):
     BASELINE_FORGOTTEN = Misconception(
         "baseline-forgotten", "The return is taken relative to the baseline: Rₜ − b(sₜ)."
     )
+    BASELINE_BOOTSTRAPPED = Misconception(
+        "baseline-bootstrapped",
+        "δₜ is the return, with all rewards to the end, minus the baseline; r + γb(s′) − b(s) is an actor-critic's.",
+    )
     BASELINE = Formula(
         "baseline",
         delta(t),
@@ -360,6 +366,11 @@ with evaluate(False):
         misread={
             BASELINE_ADDED: G_t(t) + b_of(S(t)),
             BASELINE_FORGOTTEN: G_t(t),
+            BASELINE_BOOTSTRAPPED: Cases(
+                Indicator(t, T - 1),
+                r(t + 1) - b_of(S(t)),
+                r(t + 1) + gamma * b_of(S(t + 1)) - b_of(S(t)),
+            ),
         },
     )
     BASELINE_ON_THE_POLICY = Misconception(
@@ -533,6 +544,9 @@ with evaluate(False):
             NOT_AVERAGED: SumOver(L_t(t), t, Samples),
         },
     )
+    ENTROPY_IN_BITS = Misconception(
+        "entropy-in-bits", "The logarithms are natural, to the base e; those to the base 2 give the entropy in bits."
+    )
     ENTROPY = Formula(
         "entropy",
         entropy,
@@ -541,4 +555,7 @@ with evaluate(False):
         source="Cover & Thomas 2006, section 2.1",
         hint="Weight the logarithm of every probability by the probability itself, add, and change the sign.",
         place=Place.WORKING,
+        misread={
+            ENTROPY_IN_BITS: -SumOver(pi(a, s) * log(pi(a, s)), a, Choices) / log(2),
+        },
     )

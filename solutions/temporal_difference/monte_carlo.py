@@ -22,11 +22,18 @@ def solve(given: Given, work: Work) -> None:
     _finish(given, work, _returns(given, work))
 
 
-def _finish(given: Given, work: Work, returns: tuple[Value, ...], *, stale: bool = False, last: bool = False) -> None:
-    """The updates with these returns; ``stale`` ones all start from the values before the first, and ``last`` are
-    those of the last visits alone.
+def _finish(
+    given: Given,
+    work: Work,
+    returns: tuple[Value, ...],
+    *,
+    stale: bool = False,
+    only: Iterable[int] | None = None,
+) -> None:
+    """The updates with these returns; ``stale`` ones all start from the values before the first, and ``only`` says
+    at which times they are made, if not at those that count.
     """
-    times = _last(given) if last else _counted(given, work)
+    times = _counted(given, work) if only is None else only
     if isinstance(given, OfStates) and given.known is not None:
         find_and_finish(given, work, lambda read: _updated(given, work, returns, read, times, stale=stale))
     elif isinstance(given, OfStates):
@@ -103,7 +110,7 @@ def _last(given: Given) -> list[int]:
 )
 def last_visit(given: Given, work: Work) -> None:
     """The return of the last visit for that of the first."""
-    _finish(given, work, _returns(given, work), last=given.visits == "first")
+    _finish(given, work, _returns(given, work), only=_last(given) if given.visits == "first" else None)
 
 
 @slip(
@@ -136,12 +143,28 @@ def stale_values(given: Given, work: Work) -> None:
     _finish(given, work, _returns(given, work), stale=True)
 
 
+@slip(
+    "mean-of-returns",
+    "Every visit makes an update of its own, one after the other; the returns are not averaged first.",
+    when=lambda given: given.revisits and given.visits == "every",
+)
+def mean_of_returns(given: Given, work: Work) -> None:
+    """One update of everything visited, with the mean of its returns."""
+    returns = _returns(given, work)
+    own: dict[Any, list[Value]] = {}
+    for visited, after in zip(given.occasions, returns, strict=True):
+        own.setdefault(visited, []).append(after)
+    means = tuple(sum(own[visited], ZERO) / len(own[visited]) for visited in given.occasions)
+    _finish(given, work, means, only=sorted(map(given.occasions.index, own)))
+
+
 MISCONCEPTIONS = (
     other_visits,
     RECURSION_UNDISCOUNTED,
     reward_before,
     stale_values.where_it_shows(),
     last_visit.where_it_shows(),
+    mean_of_returns.where_it_shows(),
 )
 
 

@@ -29,6 +29,14 @@ def test_what_is_said(family: str, given: dict[str, Any], typed: str, said: str)
     assert exercise.diagnose(typed, "a").sentence == f"It looks as if {said}."
 
 
+def test_updates_that_are_all_worked_out_with_the_first_values_are_added_up() -> None:
+    # V(hot) = −4 and V(smoking) = 10 all along: δ = 8 − 2 + 4 = 10, 9 + 5 + 4 = 18, 4 − 10 = −6, each with α = 1/5.
+    run = {"states": ["hot", "hot", "smoking", "end"], "rewards": [8, 9, 4], "terminal": ["end"]}
+    given = {"trajectory": run, "values": {"hot": -4, "smoking": 10}, "alpha": "1/5", "gamma": "1/2"}
+    said = rldrill.read({"family": "td-zero", "given": given}).diagnose("hot: 8/5, smoking: 44/5", "a").sentence
+    assert said.startswith("It looks as if the old values are used all along, though some of them have been updated")
+
+
 @pytest.mark.parametrize("family", ["optimal-value", "policy-value"])
 def test_in_a_large_problem_what_is_close_is_taken_for_close_at_once(
     monkeypatch: pytest.MonkeyPatch, family: str

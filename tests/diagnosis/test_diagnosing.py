@@ -328,6 +328,32 @@ def test_of_three_the_opposite_order_is_an_exchange_of_two() -> None:
     assert "opposite" not in diagnosis.sentence
 
 
+def test_the_answer_to_a_part_before_is_named() -> None:
+    # N(0, 1) moved by 2 ± 1 is N(2, 2); with the gain 1/2 the reading 4 makes it N(3, 1), and 1 ± 1 more N(4, 2).
+    steps = [{"u": [2], "z": [4]}, {"u": [1]}]
+    given = {"mean": [0], "covariance": [[1]], "process": [[1]], "sensor": [[2]], "steps": steps}
+    exercise = rldrill.read({"family": "kalman-filter", "given": given})
+    assert exercise.diagnose("2, 2", "b").sentence == "It looks as if you gave the answer to (a)."
+    assert exercise.diagnose("3, 1", "c").sentence.startswith("It looks as if you gave the answer to (b)")
+    assert exercise.diagnose("3, 1", "a").kind != "another-part"  # which comes later
+
+
+def test_another_value_of_what_is_asked_for_is_not_called_something_else() -> None:
+    # s is 2 or −8 by φ₂, at the distance 5 from −3, and 2 or 14 by φ₄, at the distance 6 from 8.
+    given = {"centres": [[1], [-3], [-1], [8]], "sigma": 6, "logarithms": {"2": "-25/72", "4": "-1/2"}}
+    exercise = rldrill.read({"family": "rbf", "given": given})
+    assert "gave s" not in exercise.diagnose("-8", "a").sentence
+
+
+@pytest.mark.parametrize(("typed", "named"), [("7/2, 8, 6", False), ("6, 8, 7/2", True), ("8, 7/2, 6", True)])
+def test_right_numbers_in_another_order_are_told_as_that(typed: str, named: bool) -> None:
+    # R₂ = 8, R₁ = 2 + 4 = 6, R₀ = 1/2 + 3 = 7/2, asked for in the order R₀, R₁, R₂
+    exercise = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": ["1/2", 2, 8]}})
+    diagnosis = exercise.diagnose(typed)
+    assert (diagnosis.kind == "answer-rearranged") is named
+    assert ("these are the right numbers, in the wrong order" in diagnosis.sentence) is named
+
+
 def test_a_mistake_that_cannot_be_made_is_not_told() -> None:
     # γ = 1: the ratio is (1/2)/(1/4) · (1/2)/(1/4) = 4, the return 3 + 5 = 8. Without r₁ it is 5, and so it is with γ·i
     # for γⁱ; but nobody multiplies by i where there is no discount.

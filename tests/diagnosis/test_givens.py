@@ -101,6 +101,7 @@ READ_WRONGLY = [
     ("givens-exchanged", "first row of rows", {"rows": (("x", -3, "1/2"), ("y", 1, 2))}),
     ("entry-left-out", "second of the rows", {"rows": (("x", "1/2", -3),)}),
     ("givens-exchanged", "second row of rows", {"rows": (("x", "1/2", -3), ("y", 2, 1))}),
+    ("rows-and-columns", "matrix", {"matrix": ((1, 3), (2, -4))}),
     ("reversed", "matrix", {"matrix": ((3, -4), (1, 2))}),
     ("entry-left-out", "first of the matrix", {"matrix": ((3, -4),)}),
     ("entries-exchanged", "matrix, first and second", {"matrix": ((3, -4), (1, 2))}),
@@ -122,6 +123,7 @@ def test_equal_numbers_are_not_exchanged_and_a_share_is_between_0_and_1() -> Non
     other = {"share": 1, "drift": 1, "table": {"a": 3, "b": 3}, "rewards": (2,), "rows": (), "matrix": ((1, 1), (0, 0))}
     assert [(each.kind, each.what) for each in misread(Small(**{**SMALL, **other}))] == [
         ("one-too-many", "steps"),
+        ("rows-and-columns", "matrix"),
         ("reversed", "matrix"),
         ("entry-left-out", "first of the matrix"),
         ("entries-exchanged", "matrix, first and second"),
@@ -129,6 +131,77 @@ def test_equal_numbers_are_not_exchanged_and_a_share_is_between_0_and_1() -> Non
         ("one-too-many", "count"),
         ("one-too-few", "count"),
     ]
+
+
+class Pages(Exactly):
+    """One matrix for every time."""
+
+    matrices: tuple[tuple[tuple[Exact, ...], ...], ...]
+
+
+@pytest.mark.parametrize(
+    ("matrices", "turned"),
+    [
+        ((((1, 2), (3, 4)),), [(((1, 3), (2, 4)),)]),
+        ((((1, 2), (3, 4)), ((5, 6), (6, 5))), [(((1, 3), (2, 4)), ((5, 6), (6, 5)))]),
+        ((((1, 2), (2, 1)),), []),  # the same, turned
+        ((((1, 2),),), []),  # not square
+    ],
+)
+def test_rows_are_read_as_columns_in_the_matrices_of_all_times(matrices: Any, turned: list[Any]) -> None:
+    found = [each.given for each in misread(Pages(matrices=matrices)) if each.kind == "rows-and-columns"]
+    assert found == [Pages(matrices=other) for other in turned]
+
+
+# Nothing is measured in the second step, which the robot rests in.
+FILTER = {
+    "family": "bayes-filter",
+    "given": {
+        "belief": {"open": "1/2", "shut": "1/2"},
+        "motion": {
+            "push": {"open": {"open": 1}, "shut": {"open": "3/5", "shut": "2/5"}},
+            "rest": {"open": {"open": 1}, "shut": {"shut": 1}},
+        },
+        "likelihood": {"light": {"open": "4/5", "shut": "1/5"}, "dark": {"open": "1/5", "shut": "4/5"}},
+        "run": [{"action": "push", "measurement": "light"}, {"action": "rest"}],
+    },
+}
+
+
+def test_an_entry_is_taken_over_from_the_row_above() -> None:
+    given = rldrill.read(FILTER).problem.given
+    found = [(each.what, each.given.run[1]) for each in misread(given) if each.kind == "as-above"]
+    assert [(what, event.action, event.measurement) for what, event in found] == [
+        ("action of the second of the steps of the run", "push", None),
+        ("measurement of the second of the steps of the run", "rest", "light"),
+    ]
+
+
+# At the exit 8 is earned, or 4.
+LINE = {
+    "family": "policy-value",
+    "given": {
+        "gamma": "1/2",
+        "mdp": {
+            "transitions": [
+                ["hall", "go", "room", "1/2", 2],
+                ["hall", "go", "exit", "1/2", 4],
+                ["room", "go", "exit", 1, 8],
+            ],
+            "terminal": ["exit"],
+        },
+        "policy": {"hall": {"go": 1}, "room": {"go": 1}},
+    },
+}
+
+
+def test_rewards_at_the_end_are_taken_for_worthless() -> None:
+    exercise = rldrill.read(LINE)
+    (unpaid,) = [each.given for each in misread(exercise.problem.given) if each.kind == "end-unpaid"]
+    assert [row.reward for row in unpaid.mdp.transitions] == [2, 0, 0]
+    # V(room) = 0, V(hall) = 1/2 · (2 + 0), where V(room) = 8 and V(hall) = 1/2 · (2 + 4) + 1/2 · 4 = 5 are right.
+    said = exercise.diagnose("hall: 1, room: 0", "a").sentence
+    assert "the rewards for reaching a terminal state are left out" in said
 
 
 class List(BaseModel):

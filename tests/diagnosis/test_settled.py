@@ -56,6 +56,6 @@ def test_so_it_is_in_a_file_of_answers(tmp_path: Path) -> None:
 
 def test_a_slip_in_an_earlier_part_is_denied_by_its_right_answer() -> None:
     exercise = rldrill.read(RETURNS)
-    slip = "7 for 8 in R₀"
-    assert slip in exercise.diagnose("21/4", "b").sentence
-    assert slip not in exercise.diagnose("21/4", "b", {"a": "8, 5"}).sentence
+    slip = "9 for 8 in R₀"  # V(cave) ← 4 + 1/2·(9 − 4) = 13/2, then 13/2 + 1/2·(5 − 13/2) = 23/4
+    assert slip in exercise.diagnose("23/4", "b").sentence
+    assert slip not in exercise.diagnose("23/4", "b", {"a": "8, 5"}).sentence

@@ -27,12 +27,12 @@ def q(text: str) -> fmpq:
         ("12/5", "sign -12/5, tenfold 24, tenfold 6/25, one-off 17/5, one-off 7/5, numerator 13/5, numerator 11/5, "
          "denominator 2, denominator 3, inverse 5/12, digits 21/5, digits 21/5, doubled 24/5, halved 6/5"),
         # 1/16 = 0.0625: 0.0265 and 0.0652.
-        ("1/16", "sign -1/16, tenfold 5/8, tenfold 1/160, one-off 17/16, one-off -15/16, numerator 1/8, numerator 0, "
+        ("1/16", "sign -1/16, tenfold 5/8, tenfold 1/160, one-off 17/16, one-off -15/16, numerator 1/8, "
          "denominator 1/17, denominator 1/15, inverse 16, digits 265/10000, digits 652/10000, doubled 1/8, "
          "halved 1/32"),
         # The decimal of 1/32 has five places, that of 1/3 never ends: nobody exchanges their digits, and where it never
         # ends no decimal point slips.
-        ("1/32", "sign -1/32, tenfold 5/16, tenfold 1/320, one-off 33/32, one-off -31/32, numerator 1/16, numerator 0, "
+        ("1/32", "sign -1/32, tenfold 5/16, tenfold 1/320, one-off 33/32, one-off -31/32, numerator 1/16, "
          "denominator 1/33, denominator 1/31, inverse 32, doubled 1/16, halved 1/64"),
         ("-2/3", "sign 2/3, one-off 1/3, one-off -5/3, numerator -1/3, numerator -1, "
          "denominator -1/2, denominator -1, inverse -3/2, doubled -4/3, halved -1/3"),
