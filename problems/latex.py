@@ -166,7 +166,7 @@ def _plain(name: str) -> str | None:
         return ""
     if name in FUNCTIONS:
         return name
-    letter = name.removeprefix("var").replace("lambda", "lamda").replace("Lambda", "Lamda")
+    letter = (name.removeprefix("var") or name).replace("lambda", "lamda").replace("Lambda", "Lamda")
     size = "CAPITAL" if letter[0].isupper() else "SMALL"
     try:
         return unicodedata.lookup(f"GREEK {size} LETTER {letter.upper()}")

@@ -82,6 +82,9 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
             return NotImplemented
         return (self.problem, self.notes, self.worth) == (other.problem, other.notes, other.worth)
 
+    def __ne__(self, other: object) -> bool:  # a Struct has one of its own, which knows nothing of ours
+        return not self == other
+
     def __hash__(self) -> int:
         return hash((self.id, self.problem.family.name, tuple(part.label for part in self.problem.parts)))
 

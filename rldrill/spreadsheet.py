@@ -20,8 +20,8 @@ _ALSO = {
 }  # fmt: skip
 _FIRST = ("first name", "firstname", "given name", "vorname")
 _LAST = ("last name", "lastname", "surname", "family name", "nachname")
-_AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
-_MARKED = re.compile(r"'(?=[=+\-@\d.(\[])(?!.*'$)", re.DOTALL)  # and so, as our own reports do
+_AS_TEXT = re.compile(r'\A="(.*)"\Z', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
+_MARKED = re.compile(r"\A'(?=[=+\-@\d.(\[])(?!.*'$)", re.DOTALL)  # and so, as our own reports do
 #: A file has no more bytes, so neither has a field: an answer that is too long is judged, and costs only itself.
 csv.field_size_limit(10**7)
 _SEPARATED = re.compile(r"\s*\"?sep=([^\r\n\"])\"?[,;\t]*\r?\n", re.IGNORECASE)
@@ -83,9 +83,7 @@ def _record(header: Sequence[str], fields: Sequence[str], where: str) -> dict[st
         del fields[-1]
     named = zip(header, fields, strict=False)
     found = {
-        name: _MARKED.sub("", _AS_TEXT.sub(r"\1", field.strip()), count=1)
-        for name, field in named
-        if name and name != "says"
+        name: _MARKED.sub("", _AS_TEXT.sub(r"\1", field.strip())) for name, field in named if name and name != "says"
     }
     whole = " ".join(filter(None, (_half(found, _FIRST), _half(found, _LAST))))
     found = {"student": whole} | found if whole else found

@@ -38,7 +38,7 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
     if level not in family.levels:
         raise UsageError(f"{family.name} has no level {level}; it has {', '.join(map(str, family.levels))}.")
     if not 0 <= seed < MAX_SEED:
-        raise UsageError(f"The seed {seed} is out of range; take a whole number from 0 to {MAX_SEED - 1}.")
+        raise UsageError(f"The seed is out of range; take a whole number from 0 to {MAX_SEED - 1}.")
     identity = Identity(family.name, level, seed, family.revision)
     why: Counter[str] = Counter()
     for attempt in range(ATTEMPTS):

@@ -193,8 +193,8 @@ def terms(value: Any) -> int:
 
 
 def told(value: Value) -> str:
-    """A rational number as mathematics, for a sentence."""
-    return str(value).replace("-", "−")
+    """A number as mathematics, for a sentence; a closed form as a decimal."""
+    return str(f"about {decimal(value)}" if is_closed(value) else value).replace("-", "−")
 
 
 def digits(value: Value) -> int:
@@ -268,6 +268,10 @@ def monomial(expression: sympy.Expr) -> Value:
     return simplest(expression)
 
 
+#: What is no polynomial comes last.
+_LAST = 99
+
+
 def ordered(expression: sympy.Expr) -> sympy.Expr:
     """A computed sum with its terms as one writes them by hand: the constant, then rising powers."""
     if not expression.is_Add:
@@ -281,8 +285,10 @@ def _rank(term: sympy.Expr, letters: tuple[sympy.Symbol, ...]) -> tuple[int, obj
     base, exponent = term.as_coeff_Mul()[1].as_base_exp()
     if base in letters and exponent.is_Integer and exponent > 0:  # a term of a polynomial, of which there may be many
         return int(exponent), sympy.default_sort_key(term)
+    if not letters and term.has(sympy.Add):  # a product of sums, which nobody multiplies out for an order
+        return _LAST, sympy.default_sort_key(term)
     try:
-        degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else 99
+        degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else _LAST
     except sympy.polys.polyerrors.GeneratorsNeeded:  # a quotient in which what stands in their place cancels
         degree = 0
     return int(degree), sympy.default_sort_key(term)

@@ -16,7 +16,7 @@ from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
 from rldrill.solutions.closed_forms import exponent, folded, fraction, rational
 from rldrill.solutions.rational import RationalFunction, generator, lifted
-from rldrill.solutions.value import NoSolution, Value
+from rldrill.solutions.value import Value
 
 #: The greatest number of products of terms that one multiplication may take.
 _EFFORT = 20_000
@@ -132,18 +132,6 @@ def _exponents(expression: sympy.Expr) -> Sequence[sympy.Expr]:
     """What e is raised to, each once."""
     found = (exponent(part) for part in sympy.preorder_traversal(expression))
     return tuple(dict.fromkeys(raised for raised in found if raised is not None))
-
-
-def rational_function(expression: sympy.Expr) -> RationalFunction:
-    """An expression in one parameter as a rational function of it.
-
-    Raises:
-        NoSolution: it is none, such as a root of the parameter.
-    """
-    try:
-        return _rational(expression)
-    except _UndecidedError:
-        raise NoSolution(f"{expression} has powers that are not whole") from None
 
 
 def _rational(expression: sympy.Expr) -> RationalFunction:

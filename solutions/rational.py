@@ -176,13 +176,27 @@ def linear(value: Value, parameter: str) -> tuple[Value, Value]:
     Raises:
         NoSolution: the value does not depend on the parameter, or not linearly.
     """
-    if not isinstance(value, RationalFunction) or value.parameter != parameter:
+    coefficients = _coefficients(value, parameter)
+    if coefficients is None:
         raise NoSolution(f"{parameter} falls out of the equation that it is to be found from; change what is given")
-    if value.top.degree() == 0:
+    if len(coefficients) == 1:
         raise NoSolution(f"no value of {parameter} solves the equation; change the numbers that are given")
-    if value.top.degree() != 1:
+    if len(coefficients) != 2:
         raise NoSolution(f"the equation is not linear in {parameter}; change the numbers that are given")
-    return value.top[1], value.top[0]
+    constant, slope = coefficients
+    return slope, constant
+
+
+def _coefficients(value: Value, parameter: str) -> Sequence[Value] | None:
+    """The coefficients of what is above the line, the constant first; None where the parameter is nowhere."""
+    if isinstance(value, RationalFunction):
+        return value.top.coeffs() if value.parameter == parameter else None
+    letter = sympy.Symbol(parameter, positive=True)
+    if not isinstance(value, sympy.Expr) or letter not in value.free_symbols:
+        return None
+    above = sympy.numer(sympy.together(value))
+    poly = sympy.Poly(above, letter) if above.is_polynomial(letter) else None
+    return () if poly is None else poly.all_coeffs()[::-1]
 
 
 def without_quotients(left: Value, right: Value, parameter: str) -> tuple[Value, Value] | None:
@@ -190,6 +204,8 @@ def without_quotients(left: Value, right: Value, parameter: str) -> tuple[Value,
 
     None, where the parameter is in no denominator, or where the sides are then not linear in it.
     """
+    if not all(isinstance(side, fmpq | RationalFunction) for side in (left, right)):
+        return None
     if all(lifted(side, parameter).bottom.degree() == 0 for side in (left, right)):
         return None
     below = [common_denominator((side,)) for side in (left, right)]

@@ -3,6 +3,7 @@
 No library for floating point is needed for it, and the answer is as exact as its decimals say.
 """
 
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from flint import fmpq
@@ -17,6 +18,8 @@ _AT_REST = fmpq(1, 2 ** (_BITS - 40))
 #: So often a matrix is squared that tells whether a state comes to rest: some 10⁹ steps.
 _SQUARINGS = 30
 _DOUBLINGS = 40
+#: So far a state may have run away before what is rounded is seen in what brings it back.
+_FAR = 2**60
 
 
 class Regulator(NamedTuple):
@@ -59,56 +62,84 @@ def stationary(regulator: Regulator) -> AnyMatrix:
     Where R is singular, the states' costs are charged to earlier actions until every action has a price of its own.
 
     Raises:
-        NoSolution: the cost-to-go grows without end, or stays but does not make the system stable; or some action
-            never matters.
+        NoSolution: the cost-to-go grows without end, no policy makes the system stable, or some action never matters.
     """
     priced, charged = regulator, regulator.Q * 0
     for _ in range(regulator.A.nrows() + 1):
         if (uncrossed := priced.uncrossed()) is not None:
-            return _checked(regulator, charged + _doubled(uncrossed))
+            return _stabilising(regulator, (charged + S for S in _solutions(uncrossed)))
         charged, priced = charged + priced.Q, priced.charged_ahead()
     raise NoSolution(_NO_MATTER)
 
 
-def _doubled(regulator: Regulator) -> AnyMatrix:
-    """The cost-to-go of a system without a cross term, in which every action has a price.
-
-    The structure-preserving doubling algorithm (Chu, Fan, Lin & Wang 2004) for √γ A and √γ B: after k rounds it has
-    the cost-to-go of a horizon of 2ᵏ steps. A stands twice in every product, so that the first one takes γ.
-    """
-    F, B, H, R, _, gamma = regulator
-    try:
-        G = B * R.inv() * B.transpose() * gamma
-        for _ in range(_DOUBLINGS):
-            W = (identity(F.nrows()) + G * H).inv()
-            step = F.transpose() * H * W * F * gamma
-            F, G, H = map(_short, (F * W * F * gamma, G + F * W * G * F.transpose() * gamma, H + step))
-            gamma = fmpq(1)
-            if _largest(step) < _AT_REST:
-                return H
-            if _largest(H) > 2**_BITS:
-                break
-    except ZeroDivisionError:
-        pass
-    raise NoSolution("the cost-to-go grows without end, since no action keeps the system from running away")
-
-
-def _checked(regulator: Regulator, S: AnyMatrix) -> AnyMatrix:
-    try:
-        closed = regulator.A - regulator.B * regulator.gain(S)
-    except ZeroDivisionError:
-        raise NoSolution(_NO_MATTER) from None
-    closed = _short(closed * closed * regulator.gamma)
-    for _ in range(_SQUARINGS):
-        if _largest(closed) < _AT_REST:
+def _stabilising(regulator: Regulator, solutions: Iterable[AnyMatrix]) -> AnyMatrix:
+    for S in solutions:
+        try:
+            gain = regulator.gain(S)
+        except ZeroDivisionError:
+            raise NoSolution(_NO_MATTER) from None
+        if _summed(regulator, gain, S * 0) is not None:
             return S
-        if _largest(closed) > 2**_BITS:
-            break
-        closed = _short(closed * closed)
     raise NoSolution(
         "under the policy that costs least the state does not come to rest: what it does costs nothing there, or no "
         "action reaches it"
     )
+
+
+def _solutions(regulator: Regulator) -> Iterator[AnyMatrix]:
+    """The least cost-to-go of a system without a cross term, in which every action has a price; then the stabilising.
+
+    The structure-preserving doubling algorithm (Chu, Fan, Lin & Wang 2004) for √γ A and √γ B: after k rounds H is
+    the cost-to-go of a horizon of 2ᵏ steps, and H + Fᵀ(I + G)⁻¹F that of one with the price sᵀs on its last state,
+    which does not let a state run away that costs nothing. A stands twice in every product: the first one takes γ.
+    """
+    F, B, H, R, _, gamma = regulator
+    one = identity(F.nrows())
+    brought_to_rest, settled = one, False
+    try:
+        G = B * R.inv() * B.transpose() * gamma
+        for _ in range(_DOUBLINGS):
+            W = (one + G * H).inv()
+            step = F.transpose() * H * W * F * gamma
+            F, G, H = map(_short, (F * W * F * gamma, G + F * W * G * F.transpose() * gamma, H + step))
+            gamma = fmpq(1)
+            settled, runs = _largest(step) < _AT_REST, _largest(F)
+            if runs < _FAR:
+                brought_to_rest = H + F.transpose() * (one + G).inv() * F
+            if (settled and not 1 <= runs < _FAR) or _largest(H) > 2**_BITS:
+                break
+    except ZeroDivisionError:
+        settled = False
+    if not settled:
+        raise NoSolution("the cost-to-go grows without end, since no action keeps the system from running away")
+    yield H
+    yield from _improved(regulator, brought_to_rest)
+
+
+def _improved(regulator: Regulator, S: AnyMatrix) -> Iterator[AnyMatrix]:
+    """What the policy iteration of Kleinman (1968) comes to, if the best gain for S makes the system stable."""
+    for _ in range(_DOUBLINGS):
+        gain = regulator.gain(S)
+        better = _summed(regulator, gain, regulator.Q + gain.transpose() * regulator.R * gain)
+        if better is None:
+            return
+        if _largest(better - S) < _AT_REST:
+            yield better
+            return
+        S = better
+
+
+def _summed(regulator: Regulator, gain: AnyMatrix, cost: AnyMatrix) -> AnyMatrix | None:
+    """What a price on the states sums to under a = −Ls; None where the state does not come to rest."""
+    F, gamma = regulator.A - regulator.B * gain, regulator.gamma
+    for _ in range(_SQUARINGS):
+        cost, F = _short(cost + F.transpose() * cost * F * gamma), _short(F * F * gamma)
+        gamma = fmpq(1)
+        if _largest(F) < _AT_REST:
+            return cost
+        if _largest(F) > 2**_BITS:
+            break
+    return None
 
 
 def _short(value: AnyMatrix) -> AnyMatrix:

@@ -1,7 +1,7 @@
 """A solver for every family, and the solution of a problem: answers, working, what mistakes give."""
 
 import importlib.util
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, cached_property, lru_cache
 from types import ModuleType
 from typing import Any
@@ -10,7 +10,7 @@ from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.errors import BrokenFamily
-from rldrill.problems.exact import PARAMETERS, SHARES
+from rldrill.problems.exact import PARAMETERS, SHARES, Parameter
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.answers.kinds import Answer, answer_kind
 from rldrill.solutions.answers.rule import apart
@@ -82,7 +82,9 @@ def _made(family: Family, read: tuple[Formula, ...]) -> tuple[Misconception, ...
 
 
 #: What may also be a reward; where its complement is given, too, it is a probability.
-_CHANCES = frozenset({"p", "q"})
+#: The fields whose numbers lie between 0 and 1, and letters that are such numbers wherever they stand.
+_SHARES = ("gamma", "alpha", "lam", "epsilon")
+_RANGED = {*_SHARES, *SHARES} - {"p", "q"}
 #: Of a longer working no mistakes are made: nobody does it by hand, and each takes as long as the solution.
 _MOST_LINES = 2000
 
@@ -269,6 +271,17 @@ def _check_found(problem: Problem, work: Work) -> None:
 
 
 def _is_in_range(letter: str, value: fmpq, problem: Problem) -> bool:
-    if letter not in SHARES or (letter in _CHANCES and f"1-{letter}" not in str(problem.given.model_dump())):
+    """Whether a letter can have a value: it is held by what it stands for, whatever it is called."""
+    if 0 < value <= 1:
         return True
-    return 0 <= value <= 1 and (value > 0 or letter != "alpha")
+    stands_for = {letter, *(name for name in _SHARES if letter in _letters(getattr(problem.given, name, None)))}
+    if value == 0:
+        return "alpha" not in stands_for
+    return not stands_for & _RANGED and repr(f"1-{letter}") not in str(problem.given.model_dump())
+
+
+def _letters(field: object) -> Iterator[str]:
+    """The letters that a field leaves open: a number, or one for every step."""
+    for number in field if isinstance(field, tuple) else (field,):
+        if isinstance(number, Parameter):
+            yield number.symbol

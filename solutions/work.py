@@ -391,7 +391,7 @@ class Work:
             slope, constant = linear(cleared[0] - cleared[1], letter)
         if sign(slope) < 0:
             slope, constant = ZERO - slope, ZERO - constant
-        value = bounded(simplest(ZERO - constant / slope))
+        value = bounded(simplest(tidy(ZERO - constant / slope)))
         self.letters.append((letter, value))
         if self.misconception is None and ((share and not 0 <= value <= 1) or (positive and value <= 0)):
             between = "lies between 0 and 1" if share else "is above 0"

@@ -85,7 +85,7 @@ def test_exercises_and_what_they_say_go_to_another_process(identity: str) -> Non
     """A pool of graders draws in one process and tells in another."""
     exercise = rldrill.load(identity)
     again = pickle.loads(pickle.dumps(exercise))
-    assert (again, hash(again)) == (exercise, hash(exercise))
+    assert (again, hash(again), again != exercise) == (exercise, hash(exercise), False)
     assert again != replace(exercise, worth={part.label: 7 for part in exercise.parts})
     for part in exercise.data(mistakes=2)["parts"]:
         for wrong in part["mistakes"]:

@@ -545,7 +545,8 @@ def test_what_an_option_would_not_do_is_refused(tmp_path: Path) -> None:
     roster = tmp_path / "course.csv"
     roster.write_text("name,number\nAda,1\n")
     assert "leave --versions out" in refused("return", "--roster", roster, "--versions", 2)
-    assert "leave the rest out" in refused("--init", tmp_path / "new.toml", "return", "-n", 3)
+    for option in (["return"], ["-n", 3], ["--paper", "letter"], ["--no-ids"], ["-o", "x.pdf"], ["--seed", 0]):
+        assert "leave the rest out" in refused("--init", tmp_path / "new.toml", *option)
     assert not (tmp_path / "new.toml").exists()
 
 
@@ -599,6 +600,12 @@ def test_a_family_at_a_level_is_a_problem_as_often_as_it_is_named(tmp_path: Path
     run("return/1", "return/1", "return/2", "-o", tmp_path / "x.json")
     (version,) = json.loads((tmp_path / "x.json").read_text())["versions"]
     assert [problem["level"] for problem in version["problems"]] == [1, 1, 2]
+
+
+@pytest.mark.parametrize("option", [["-n", 3], ["--level", 2]])
+def test_where_all_problems_are_named_nothing_says_what_else_is_drawn(tmp_path: Path, option: list[str | int]) -> None:
+    said = f"All problems are named; leave {option[0]} out"
+    assert said in refused("td-zero/1/7", "return/1", *option, "-o", tmp_path / "x.json")
 
 
 @pytest.mark.parametrize("names", [["td-zero/1/7", "return"], ["td-zero/1/7", "return/1"]])

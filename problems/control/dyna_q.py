@@ -86,6 +86,8 @@ class Given(ActionRun):
         return self
 
     def _check_entry(self, field: str, entry: Entry) -> None:
+        if entry.state in self.trajectory.terminal:
+            raise ValueError(f"{field}: {entry.state!r} is terminal, so nothing is done there; leave the entry out")
         if entry.action not in self.values.get(entry.state, {}):
             raise ValueError(f"values: {field} has {entry.action!r} in {entry.state!r}, which has no value; add it")
         if entry.next not in self.trajectory.terminal and not self.values.get(entry.next):

@@ -84,6 +84,12 @@ def command(
         raise UsageError("--exam says what is asked, and for how long; leave out what else would say it.")
     if exam is None and any((version, answers)):
         raise UsageError("--version and --answers are of an exam; name its blueprint or manifest, --exam exam.toml.")
+    wanted = list(names or ())
+    named = [name for name in wanted if names_a_problem(name)]
+    if named and (exam_date is not None or mistake is not None):
+        raise UsageError(f"{named[0]} is one problem; leave --exam-date and --mistake out, which choose from families.")
+    if named == wanted != [] and any((number, level, seed is not None)):
+        raise UsageError("All problems are named; leave -n, --level and --seed out, which say what else is drawn.")
     if not is_interactive():
         raise UsageError(
             "The quiz needs a terminal; without one use 'rldrill verify FILE' to grade answers, "
@@ -95,7 +101,6 @@ def command(
     from rldrill.history.keeping import Keeper
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
-    wanted = list(names or ())
     plan, drilled, said = None, None, ""
     if mistake is not None:
         if exam_date is not None:
@@ -104,7 +109,7 @@ def command(
 
         drilled = drill(mistake, keeper.read(), wanted, level)
         said = drilled.says()
-    elif exam_date is not None or not (level or seed is not None or any(map(names_a_problem, wanted))):
+    elif exam_date is not None or not (level or seed is not None or named):
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
@@ -145,7 +150,7 @@ def command(
         terminal,
         line_editor(lambda: screen.redraw(), plain=plain or terminal.is_dumb_terminal),
         recorder,
-        None if any(map(names_a_problem, wanted)) else {attempt.family for attempt in attempts},
+        None if named else {attempt.family for attempt in attempts},
         lambda: _map([*attempts, *recorder.attempts]),
         plan,
         plain=plain,
@@ -196,19 +201,18 @@ def _begun(blueprint: Path, saved: Path, seed: int | None) -> "Exam":
     """The exam of a blueprint, drawn when it is begun for the first time, in whichever terminal that is."""
     from rldrill.exam.blueprint import read_blueprint
     from rldrill.exam.manifest import manifest, read_manifest, written
-    from rldrill.exam.planning import plan
+    from rldrill.exam.planning import can_be_of, plan
     from rldrill.problems.errors import UsageError
     from rldrill.writing import begin
 
     if saved.exists():
-        begun, asked = read_manifest(saved), read_blueprint(blueprint)
-        same = all(getattr(begun.head, name) == getattr(asked.head, name) for name in ("title", "course", "date"))
-        if not same or (seed is not None and seed != begun.seed):
+        begun = read_manifest(saved)
+        if not can_be_of(begun, read_blueprint(blueprint).but(seed=seed)):
             raise UsageError(
                 f"{saved} holds another exam that was begun, {begun.head.title!r}; name another file with --answers."
             )
         return begun
-    planned = plan(read_blueprint(blueprint).but(seed=seed, versions=1))
+    planned = plan(read_blueprint(blueprint).but(seed=seed))
     return planned if begin(saved, written(manifest(planned))) else read_manifest(saved)
 
 

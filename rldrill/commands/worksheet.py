@@ -112,7 +112,22 @@ def command(
         "notation": notation,
     }
     if init is not None:
-        if any((names, count, minutes, level, exclude, seed is not None, versions, roster, title, source, key)):
+        others = (
+            names,
+            count,
+            minutes,
+            level,
+            exclude,
+            versions,
+            roster,
+            title,
+            source,
+            key,
+            output,
+            format_,
+            secret_file,
+        )
+        if any((*others, seed is not None, *(value is not None for value in changes.values()))):
             raise UsageError("--init writes a blueprint to fill in; leave the rest out, and write it there.")
         _write_template(init, force=force)
         written = [init]
@@ -240,6 +255,9 @@ def _blueprint(
             fixed.append(entry)
     if count is not None and count < (named := len(fixed) + bool(rest)):
         raise UsageError(f"{named} problems are named, and -n asks for {count}; raise it, or leave names out.")
+    if fixed and not rest and (level or count not in (None, len(fixed))):
+        out = "--level" if level else "-n"
+        raise UsageError(f"All problems are named; leave {out} out, or name topics or families to choose more from.")
     if rest or not fixed:
         wanted = None if minutes and count is None else max(1, (count or _PROBLEMS) - len(fixed))
         fixed.append(Entry(topic=rest, count=wanted, level=level))

@@ -22,8 +22,9 @@ from rldrill.typed import typed
 SUFFIXES = (".toml", ".json", ".csv", ".jsonl", ".ndjson")
 #: Whose answers a file holds stands among its first bytes.
 _BEGINNING = 4096
-_WHO = ("student", "number")
-_NAMED = (*_WHO, "problem", "part")
+#: What a file says of the person whose answers it holds.
+WHO = ("student", "number")
+_NAMED = (*WHO, "problem", "part")
 _COLUMNS = ("student", "problem", "part", "answer")
 _KNOWN = (*_NAMED, "answer")
 _NEEDED = ("problem", "answer")
@@ -244,8 +245,8 @@ def _tables(text: str, path: Path) -> Iterator[Row]:
     if not isinstance(data, dict):
         raise FileError(f"{where}: a file of answers is a table from problem IDs to answers.")
     single = [key for key, value in data.items() if key == "student" or not isinstance(value, dict | list)]
-    person = {name: data[key] for key, name in _meanings(single, where).items() if name in _WHO}
-    data = {key: value for key, value in data.items() if key not in single or meant([key])[0] not in _WHO}
+    person = {name: data[key] for key, name in _meanings(single, where).items() if name in WHO}
+    data = {key: value for key, value in data.items() if key not in single or meant([key])[0] not in WHO}
     above = ("answers",) if "answers" in data else ()
     answers = data.pop("answers", None) if above else data
     if answers is not data and data:

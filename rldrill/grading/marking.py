@@ -253,8 +253,6 @@ class Judging:
     def _verdict(self, label: str, text: str, carried: Mapping[str, tuple[str, Verdict]]) -> Verdict:
         earlier = {other: verdict.value for other, (_, verdict) in carried.items()}
         verdict = judge(self.exercise.solution, label, text, earlier)
-        if not self._rules.causes:
-            return verdict
         verdicts = {other: each for other, (_, each) in carried.items()}
         return self.exercise.unmasked(label, text, {**verdicts, label: verdict})
 

@@ -11,7 +11,7 @@ from msgspec import Struct, field
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.files import parse
-from rldrill.grading.answers_file import Entry
+from rldrill.grading.answers_file import WHO, Entry
 from rldrill.grading.marking import Judging, Rules, label_of
 from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.errors import FileError, UsageError
@@ -41,6 +41,8 @@ class Sitting(Struct):
         manifest: the exam as a file, by which the answers are graded; None where it is nowhere.
         answers: what was typed, by place.
         handed_in: when it was handed in, if it was.
+
+    Who sits it is kept as the file says it, for ``verify``.
     """
 
     exam: Exam
@@ -50,6 +52,7 @@ class Sitting(Struct):
     manifest: Path | None = None
     answers: dict[Place, str] = field(default_factory=dict)
     handed_in: datetime | None = None
+    _who: dict[str, str] = field(default_factory=dict)
     _kept: str | None = None
     _changed: set[Place] = field(default_factory=set)
 
@@ -100,6 +103,7 @@ class Sitting(Struct):
         lines.append(f"{_BEGUN}{self.begun.isoformat()}")
         if self.handed_in is not None:
             lines.append(f"{_HANDED_IN}{self.handed_in.isoformat()}")
+        lines += [f"{key} = {_quoted(name)}" for key, name in self._who.items()]
         for number, exercise in enumerate(self.version.exercises):
             lines.append(f"\n[{_quoted(self._name(number))}]")
             lines += [
@@ -156,10 +160,16 @@ class Sitting(Struct):
         except FileError:
             raise self._no_sitting() from None
         moments = [_moment(found) for found in _MOMENT.findall(text)]
-        names = [self._name(number) for number in range(len(self.version.exercises))]
-        if not moments or None in moments or not isinstance(data, dict) or data.keys() != {*names}:
+        if not moments or None in moments or not isinstance(data, dict):
+            raise self._no_sitting()
+        who = {key: str(name) for key, name in data.items() if key in WHO and isinstance(name, str | int)}
+        numbers = {self._name(number): number for number in range(len(self.version.exercises))}
+        numbers = {str(number + 1): number for number in numbers.values()} | numbers
+        if not data.keys() - who.keys() <= numbers.keys():
             raise FileError(f"{self.path} holds answers to other problems; name another file with --answers.")
-        answers = {place: text for number, name in enumerate(names) for place, text in self._found(number, data[name])}
+        problems = [(numbers[name], parts) for name, parts in data.items() if name not in who]
+        answers = {place: text for number, parts in problems for place, text in self._found(number, parts)}
+        self._who = who
         self.begun = moments[0] or self.begun
         self.handed_in = moments[1] if _HANDED_IN in text and len(moments) > 1 else None
         self.answers = answers

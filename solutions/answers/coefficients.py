@@ -22,7 +22,7 @@ class Place(NamedTuple):
 
 
 def coefficients(value: Value, letters: Sequence[str]) -> Mapping[Place, Value] | None:
-    """The numbers, none of them 0, of a quotient of polynomials in lowest terms.
+    """The numbers, none of them 0, of a quotient of polynomials in lowest terms, in letters and their logarithms.
 
     None if the value is no such quotient, or a long one of numbers that are no fractions, as nobody types.
 
@@ -30,14 +30,21 @@ def coefficients(value: Value, letters: Sequence[str]) -> Mapping[Place, Value] 
         value: the value.
         letters: all letters that are in it, and perhaps others.
     """
+    none = (0,) * (2 * len(letters))
     if is_rational(value):
-        above = [((0,) * len(letters), value)]
-        below: Iterable[tuple[tuple[int, ...], Value]] = [((0,) * len(letters), fmpq(1))]
+        above = [(none, value)]
+        below: Iterable[tuple[tuple[int, ...], Value]] = [(none, fmpq(1))]
     elif isinstance(value, RationalFunction):
-        one = tuple(letter == value.parameter for letter in letters)
+        one = (*(letter == value.parameter for letter in letters), *[False] * len(letters))
         above, below = list(_terms(value.top, one)), _terms(value.bottom, one)
     else:
-        expression, symbols = to_sympy(value), [sympy.Symbol(letter, positive=True) for letter in letters]
+        symbols = [sympy.Symbol(letter, positive=True) for letter in letters]
+        logarithms = [sympy.Symbol(f"ln {letter}") for letter in letters]
+        expression = to_sympy(value)
+        if any(log.free_symbols for log in expression.atoms(sympy.log)):  # ln(2x) is ln 2 + ln x
+            named = dict(zip(map(sympy.log, symbols), logarithms, strict=True))
+            expression = sympy.expand_log(expression).xreplace(named)
+        symbols += logarithms
         if not expression.is_rational_function(*symbols) or not _is_short(expression):
             return None
         if not expression.has(sympy.Function, sympy.NumberSymbol) and not any(

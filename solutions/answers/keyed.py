@@ -63,6 +63,8 @@ class _Item(Struct, frozen=True):
     name: str
     value: Source
     whole: Source
+    #: Whether another key was named before the value was: it may be a form of it, V₂(cool) = V₁(warm) = 3.
+    shared: bool = False
 
 
 def by_name(source: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
@@ -178,8 +180,10 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
             continue
         split, other = _last_key(before, asked), before.strip()
         if split is None and mark[0] == "=" and not _NUMERIC.match(other) and len(keys_named(other, asked.keys)) == 1:
-            alike.append(name)
-            name, begun = other, mark.end()
+            if keys_named(other, asked.keys) != keys_named(name, asked.keys):  # V(cool) = R(cool) = 3.5 is one value
+                alike.append(name)
+                name = other
+            begun = mark.end()
             continue
         forms = forms + 1 if split is None else 0
         if forms > _FORMS:
@@ -188,13 +192,14 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
             stop = begun + split
             last = stop if (parted := _AND.search(piece.text[begun:stop])) is None else begun + parted.start()
             for each in (*alike, name):
-                yield _Item(each, piece.part(begun, last), piece.part(start, last))
+                yield _Item(each, piece.part(begun, last), piece.part(start, last), each is name and bool(alike))
             alike = []
             start, name, begun = stop, piece.text[stop:index].strip(), mark.end()
         elif mark[0] != "=" or (piece.text[begun - 1] in ":>→↦" and re.fullmatch(r"\s*[^\W\d]\w*", before)):
             raise piece.unreadable(f"{quoted(piece.text[start:])} holds two keys; put a comma between them.", begun)
+    end = len(piece.text)
     for each in (*alike, name) if name else ():
-        yield _Item(each, piece.part(begun, len(piece.text)), piece.part(start, len(piece.text)))
+        yield _Item(each, piece.part(begun, end), piece.part(start, end), each is name and bool(alike))
 
 
 def _last_key(text: str, asked: Asked[Key]) -> int | None:
@@ -267,12 +272,14 @@ def _opened(item: _Item, asked: Asked[Key]) -> Iterator[_Item]:
 def _by_key(items: list[_Item], asked: Asked[Key]) -> dict[Key, Source]:
     """What is typed for each key, in the keys' order."""
     found: dict[Key, Source] = {}
-    for item in items:
+    for item in sorted(items, key=lambda item: item.shared):
         key = the_key(item.name, asked.keys, asked.ends, item.whole)
         if key is None:
             if not asked.means_nothing(item.value):
                 worth = "its value is 0" if asked.numbers else "no action is taken there"
                 raise item.value.unreadable(f"{quoted(item.name)} is terminal, so {worth}; leave it out.")
+            continue
+        if key in found and item.shared:
             continue
         if key in found:
             raise item.whole.unreadable(f"{shown(key)} is given twice; give it once.")

@@ -20,7 +20,8 @@ _NUMBERED = re.compile(r"(?:[^\W\d_]{1,9}\s?|#)_?(\d+)")  # Q1, s1, arm 2, #2, w
 _LETTER = re.compile(r"[^\W\d_]['′]*(?:_?\d+)?")  # s, s', s_0
 _INDEX = re.compile(r"(?<=\w)\((\d+)\)|_\{([^{}]*)\}")  # pi(1), s_{1}
 _SPELLED_OUT = str.maketrans({glyph: name for name, glyph in GREEK.items()} | {"π": "pi", "∂": "d"})
-_SQUARE = re.compile(r"(?:σ|sigma)(.*?)\s*(?:\^\s*\{?2\}?|²)")  # a variance, which is called Σ, too
+#: A variance, which is called Σ, too; σ2 is σ² as it is copied, and what is asked for in step 2.
+_SQUARE = re.compile(r"(?:σ|sigma)(?:(.*?)\s*(?:\^\s*\{?2\}?|²)|_?[2₂])")
 _DEVIATION = re.compile(r"σ|sigma")
 _COUNTED = re.compile(r"(?<=.)\^?\{?\([0-9⁰¹²³⁴⁵⁶⁷⁸⁹]+\)\}?$")
 _LISTED = 60
@@ -262,7 +263,7 @@ def entry_named(label: str, names: Sequence[str], called: Sequence[str] = ()) ->
     if is_deviation(label, names):
         return None
     if (squared := _SQUARE.fullmatch(label)) and not any(name.startswith("σ") for name in names):
-        label = f"Σ{squared[1]}"
+        label = f"Σ{squared[1] or ''}"
     for form in (_plain, _unmarked, _loose, lambda name: _loose(name).rstrip("0123456789")):
         hits = [index for index, name in enumerate(names) if form(name) in (_plain(label), _loose(label))]
         if len(hits) == 1:

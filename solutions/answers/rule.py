@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import lru_cache, partial
+from math import gcd, lcm
 
 from flint import fmpq
 
@@ -171,10 +172,18 @@ def _is_rounded(value: Value, key: Value) -> bool:
         return all(_right_at(value, key, point) for point in points(value))
     if ours.keys() != theirs.keys():
         return False
+    below = [place for place in theirs if place.below]
+    written, fractions = fmpq(1), list(filter(is_rational, theirs.values()))
+    if len(below) > 1 and len(fractions) == len(theirs):  # a quotient is written in whole numbers
+        written = fmpq(lcm(*(int(number.q) for number in fractions)))
+        written /= gcd(*(int((number * written).p) for number in fractions))
     return any(  # whichever number below the line is taken to be as it is
-        all(within(ours[each] / ours[one], here := theirs[each] / theirs[one], tolerance(here)) for each in theirs)
-        for one in theirs
-        if one.below
+        all(
+            within(ours[each] / ours[one] * scale, here := theirs[each] / theirs[one] * scale, tolerance(here))
+            for each in theirs
+        )
+        for one in below
+        for scale in dict.fromkeys((fmpq(1), theirs[one] * written))
     )
 
 

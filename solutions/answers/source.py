@@ -11,7 +11,7 @@ __all__ = ["LONGEST", "Unreadable", "bare", "clean"]
 #: No answer is longer, unless the right one is.
 LONGEST = 2000
 _ABOUT = re.compile(
-    r"\s*(?:[≈~]|(?:approx|approximately|about|circa|ca|roughly|exactly)\b\.?(?!\s*[:=←→|]))\s*", re.IGNORECASE
+    r"\s*(?:[≈~]|(?:approx|approximately|about|circa|ca|roughly|exactly)\b(?:\.\s*=?|(?!\s*[:=←→|])))\s*", re.IGNORECASE
 )
 _BOLD = re.compile(r"\*\*[^*\s](?:[^*]*[^*\s])?\*\*")
 _QUOTES = "'\"`"

@@ -73,6 +73,7 @@ _REMARK = re.compile(r"(?<=\w)\s+\([^()]*\)$")
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
 _RELATION = re.compile(r"[<>!]=|=[<>]|[≤≥≠]")
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
+_OR = re.compile(r"\A(?:or|oder|/)(?!\w)\s*", re.IGNORECASE)
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _BARS = re.compile(r"\|([^\s|](?:[^|\n]*[^\s|])?)\|")  # a cell of a table has spaces at its edges
@@ -81,8 +82,8 @@ _NORMAL = re.compile(r"(?:[^=~∼]*[=~∼])?\s*N\s*(?=[(\[])", re.DOTALL)
 #: A vector in angle brackets: <24, -12>.
 _ANGLES = re.compile(r"\A\s*<([^<>]+)>\s*\Z")
 _BY_MEAN = ("mean",)
-#: Odds: 2:15.
-_ODDS = re.compile(r"\s*([0-9./]+)\s*:\s*([0-9./]+)\s*")
+#: Odds: 2:15, 1 : 7.5; but 1: 7.5, and 1:7.5, may be the number of a question before the answer.
+_ODDS = re.compile(r"\s*(?![0-9]+:[0-9]*[./])([0-9./]+)( ?):\2([0-9./]+)\s*")
 #: What is said before a number: R_0: 1/4, answer: 1/4, the answer is 1/4.
 _SAID_FIRST = re.compile(
     r"(?:the\s+)?(?:answer|result|solution)\s+is\s+(?=\S)|[^\W\d][^:=\n]{0,30}:\s*(?=[^\s:=])", re.IGNORECASE
@@ -107,7 +108,7 @@ def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGES
         Unreadable: it is not one number.
     """
     if odds := _ODDS.fullmatch(text):
-        text = f"({odds[1]})/({odds[2]})"
+        text = f"({odds[1]})/({odds[3]})"
     reading = plain(text) or _number(_whole(_unsaid(_without_reason(clean(text, longest)))), parameters, Arithmetic())
     plainly = re.sub(r"\s", "", in_signs(text)) if "\\" in text else text.strip()
     bars = _BARS.fullmatch(plainly.strip("$"))
@@ -413,8 +414,10 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     spellings = [(_flattened(told), letter) for letter, told in options.items()]
     typed = _SAID.sub("", typed)
     remark = _REMARK.search(typed)
-    if remark and not matches(typed, spellings) and not _names_option(remark[0], options):
-        typed = typed[: remark.start()]  # large (lower BIC)
+    if remark and not matches(typed, spellings):
+        before = typed[: remark.start()]
+        if not _names_another(remark[0], _told(before, spellings), spellings):
+            typed = before  # large (lower BIC)
     both = _BOTH.fullmatch(typed)
     if both and (lettered := _lettered(both[1], options)):
         told = _told(both[2], spellings)
@@ -423,7 +426,7 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
         if told:
             raise source.unreadable(f"{quoted(typed)} has the letter of one option and words of another; type one.")
     first, *why = _WHY.split(typed, maxsplit=1)
-    if why and _lettered(first, options) and not _names_option(why[0], options):
+    if why and (chosen := _lettered(first, options)) and not _names_another(why[0], chosen, spellings):
         typed = first  # A, lower BIC
     alone = re.fullmatch(r"\(?([A-Za-z])[).:]?", typed)
     lettered = _lettered(alone[1], options) if alone else []
@@ -441,9 +444,16 @@ def _flattened(text: str) -> str:
     return re.sub(r"[$^{}]", "", text)
 
 
-def _names_option(reason: str, options: Iterable[str]) -> bool:
-    """Whether the letter of an option stands alone in what is said behind another one."""
-    return any(re.search(rf"\b{letter}\b", reason) for letter in options)
+def _names_another(reason: str, chosen: Sequence[str], spellings: Sequence[tuple[str, str]]) -> bool:
+    """Whether what is said behind an option is another one: its letter alone, its words, or "or" with them."""
+    if any(re.search(rf"\b{letter}\b", reason) for _, letter in spellings):
+        return True
+    said = reason.strip(" ().,;:")
+    alone = _OR.sub("", said)
+    others = [(spelled(spelling).casefold(), letter) for spelling, letter in spellings if letter not in chosen]
+    if alone != said:
+        return any(re.search(rf"(?<!\w){re.escape(words)}(?!\w)", spelled(alone).casefold()) for words, _ in others)
+    return bool(matches(alone, others))
 
 
 def _lettered(typed: str, options: Iterable[str]) -> list[str]:

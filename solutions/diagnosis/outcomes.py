@@ -138,11 +138,13 @@ class Outcomes:
         while not self.finished:
             whole = self.search.whole(clock)
             for candidate in whole[self._taken :]:
+                if clock.over:
+                    return False
+                self._taken += 1
                 cells = self.cells_of(candidate.answers)
                 if cells is not None:
                     self._keep(candidate.cause, cells, again=candidate.again)
                     self._here_alone(candidate, cells)
-            self._taken = len(whole)
             while not clock.over and not self.finished:
                 self.finished = next(self._growth, True)
             if clock.over:

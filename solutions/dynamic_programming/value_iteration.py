@@ -97,7 +97,11 @@ def _tie(state: str, work: Work, worth_of: Formula, known: dict[str, Any]) -> No
     worth = [work.step(worth_of, s=state, a=action, **known) for action in actions]
     work.say("Both are greedy where these are equal:")
     gamma = work.equate("gamma", *worth)
-    if sign(gamma) <= 0 or sign(ONE - gamma) < 0:
+    if sign(gamma) == 0:
+        raise NoSolution(
+            f"both actions in {state!r} are greedy with γ = 0, and no discount is smaller; change a reward"
+        )
+    if sign(gamma) < 0 or sign(ONE - gamma) < 0:
         raise NoSolution(f"with no discount from 0 to 1 are both actions in {state!r} greedy; change a reward")
     below = work.answer(gamma) / 2
     first, second = (work.value(worth_of, s=state, a=action, **known | {"gamma": below}) for action in actions)

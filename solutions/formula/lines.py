@@ -8,7 +8,7 @@ from rldrill.solutions.formula.collecting import collected_next, is_quotient
 from rldrill.solutions.formula.common_denominator import brackets_in_one_fraction, in_one_fraction
 from rldrill.solutions.formula.inverting import inverted
 from rldrill.solutions.formula.multiplying import entry_by_entry, multiplied_out
-from rldrill.solutions.formula.nested import inner_brackets_first
+from rldrill.solutions.formula.nested import choices_first, inner_brackets_first
 from rldrill.solutions.formula.putting_in import (
     ANGULAR,
     long_sum,
@@ -29,11 +29,14 @@ def lines_between(put_in: Expr, *, own: bool) -> Iterator[Expr]:
     sines = with_vanishing_sines(put_in)
     if sines is not None:
         yield sines
-    plain = without_slots(put_in)
+    bare = without_slots(put_in)
+    plain = choices_first(bare)
     short = term_by_term(reduced(put_in)) if own else reduced(put_in)
     without_inverse = inverted(short)
     products = list(multiplied_out(without_inverse))
     collected = collected_next(plain if is_quotient(plain) else short)
+    if plain != bare:
+        yield plain
     if not products:
         yield from inner_brackets_first(plain)
         yield from multiplied_out(plain)

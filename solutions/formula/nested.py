@@ -1,4 +1,4 @@
-"""Brackets within brackets: where a bracket holds several, they are worked out first, on a line of their own."""
+"""What is worked out first, on a line of its own: a choice within a sum, and brackets within brackets."""
 
 from collections.abc import Iterator
 
@@ -7,12 +7,36 @@ from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.choices import Choice
-from rldrill.solutions.formula.nodes.leaves import computed
+from rldrill.solutions.formula.nodes.leaves import Leaf, computed
 from rldrill.solutions.formula.nodes.sets import MaxOf
-from rldrill.solutions.formula.putting_in import evaluated, reduced
+from rldrill.solutions.formula.putting_in import evaluated, numbers_first, reduced
 
 #: So many products and powers in a bracket are not worked out in the same line as brackets in them.
 _SEVERAL = 2
+
+
+def choices_first(expression: Expr) -> Expr:
+    """The step with the greatest of the numbers that a maximum in it has to choose from, and so on.
+
+    A choice that is the whole step is worked out in the step's own lines.
+    """
+    if isinstance(expression, Node) or not expression.has(Choice):
+        return expression
+    arguments = [
+        _chosen(argument) if isinstance(argument, Choice) else choices_first(argument) for argument in expression.args
+    ]
+    if expression.is_Mul:
+        return numbers_first(Mul._from_args(arguments))
+    return Add._from_args(arguments) if expression.is_Add else expression
+
+
+def _chosen(choice: Expr) -> Expr:
+    value = evaluated(choice)
+    return computed(value) if value.is_Rational and all(map(_is_plain, choice.args)) else choice
+
+
+def _is_plain(value: Expr) -> bool:
+    return isinstance(value, Leaf) or not value.args
 
 
 def inner_brackets_first(expression: Expr) -> Iterator[Expr]:

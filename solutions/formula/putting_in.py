@@ -201,7 +201,7 @@ def reduced(expression: Expr) -> Expr:
     """
     written = without_slots(expression)
     plain = _plain_powers(written)
-    result = _numbers_first(_reduced(written)) if plain == written else plain
+    result = numbers_first(_reduced(written)) if plain == written else plain
     return result if result == expression else _subtracted(result)
 
 
@@ -253,12 +253,12 @@ def _with_sign(number: Expr) -> Expr:
     return Mul(-1, -number, evaluate=False) if number.is_negative else number
 
 
-def _numbers_first(expression: Expr) -> Expr:
+def numbers_first(expression: Expr) -> Expr:
     """The step with the numbers of its products before the letters left open: 8γ, not γ·8."""
     if isinstance(expression, Node):
         return expression
     if expression.is_Add:
-        return Add(*map(_numbers_first, expression.args), evaluate=False)
+        return Add(*map(numbers_first, expression.args), evaluate=False)
     if not expression.is_Mul:
         return expression
     in_brackets = (factor.args[0] if isinstance(factor, Negative) else factor for factor in expression.args)

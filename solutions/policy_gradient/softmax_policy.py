@@ -13,7 +13,6 @@ from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
 from rldrill.solutions.exact import ONE, ZERO, Value, exact, parameters, simplest, tidy, to_sympy
-from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.formula.typesetting import typeset
@@ -83,7 +82,7 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
     pair = odds.action, odds.other
     bound = {**known, "H": {("s", action): work.step(PREFERENCE, a=action, **known) for action in pair}}
     quotient = work.step(SOFTMAX_ODDS, a=odds.action, a1=odds.other, **bound)
-    x = work.answer(work.equate("x", rational_function(to_sympy(quotient)), exact(odds.times)))
+    x = work.answer(work.equate("x", quotient, exact(odds.times)))
     theta = [
         sympy.expand_log(to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)), factor=True)
         for weight in given.theta

@@ -492,3 +492,45 @@ def test_the_letter_of_the_part_may_stand_before_its_answer(text: str) -> None:
     solution = problem("td-zero", trajectory=run, values={"cave": 8, "rim": 3}, alpha="1/2", gamma="1/2")
     assert judge(solution, "a", text).outcome is Outcome.RIGHT
     assert judge(solution, "a", text.replace("a", "b", 1)).outcome is not Outcome.RIGHT
+
+
+@pytest.mark.parametrize(
+    ("typed", "right"),
+    [
+        ("ln(x) + 0.693", True),
+        ("1.00 ln x + 0.6935", True),
+        ("0.69315 + ln x", True),
+        ("ln(2.0x)", True),
+        ("ln(2.01x)", False),  # ln 2.01 = 0.698
+        ("ln(2.004x)", False),  # 0.695
+        ("ln(x) + 0.694", False),
+        ("1.01 ln(x) + 0.693", False),
+        ("ln(x) + 0.693x", False),
+    ],
+)
+def test_every_number_beside_a_logarithm_of_a_letter_has_three_digits(typed: str, right: bool) -> None:
+    # ln 2 = 0.69315; three digits are 0.693, and within half of the last place it is from 0.6926 to 0.6936.
+    x = sympy.Symbol("x", positive=True)
+    reading = read_number(typed, ["x"])
+    assert is_right(reading.value, sympy.log(2) + sympy.log(x), rounded=reading.decimal) is right
+
+
+@pytest.mark.parametrize(
+    ("typed", "right"),
+    [
+        ("(2310 - 1510q)/(211 - 156q)", True),  # 2309 and 1512 to three digits
+        ("(2.31 - 1.51q)/(0.211 - 0.156q)", True),
+        ("(2330 - 1510q)/(211 - 156q)", False),
+        ("(2310 - 1510q)/(212 - 156q)", False),
+        ("(2310 - 1520q)/(211 - 156q)", False),
+    ],
+)
+def test_every_number_of_a_quotient_has_three_digits_as_it_is_written(typed: str, right: bool) -> None:
+    key = read_number("(2309 - 1512q)/(211 - 156q)", ["q"]).value
+    assert is_right(read_number(typed, ["q"]).value, key) is right
+
+
+@pytest.mark.parametrize("typed", ["0.334 x + 0.5", "2.01/(1 - x)", "2.01 x + 3.01", "2.01/x"])
+def test_a_number_that_is_not_written_gives_no_room(typed: str) -> None:
+    for key in ("x/3 + 1/2", "2/(1 - x)", "2x + 3", "2/x"):
+        assert not is_right(read_number(typed, ["x"]).value, read_number(key, ["x"]).value)

@@ -428,7 +428,17 @@ MOMENTS = {"names": ("μ_1", "Σ_1"), "called": ("mean", "variance")}
 
 
 @pytest.mark.parametrize(
-    "text", ["μ = 5, σ² = 3", "sigma^2 = 3; mu = 5", "var 3, mean 5", "Σ=3 μ=5", "σ_1^2 = 3, μ_1 = 5"]
+    "text",
+    [
+        "μ = 5, σ² = 3",
+        "sigma^2 = 3; mu = 5",
+        "var 3, mean 5",
+        "Σ=3 μ=5",
+        "σ_1^2 = 3, μ_1 = 5",
+        "mu = 5, sigma2 = 3",
+        "μ = 5, σ2 = 3",
+        "mean: 5, sigma_2: 3",
+    ],
 )
 def test_the_square_of_a_deviation_is_a_variance(text: str) -> None:
     assert [entry.value for entry in read_vector(text, 2, **MOMENTS)] == [5, 3]
@@ -718,6 +728,20 @@ def test_keys_that_are_not_meant(text, keys, fragment):
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "cool = warm = 1",
+        "V2(cool) = V1(warm) = 1, V2(warm) = 1",
+        "V2(cool) = R(cool) = 1, warm = 1",
+        "V(cool) = V(cool) = 1, V(warm) = 1",
+        "V(warm) = 1, V(cool) = V(warm) = 1",
+    ],
+)
+def test_a_key_before_a_value_shares_it_unless_it_has_one_of_its_own(text: str) -> None:
+    assert values(read_table(text, ["cool", "warm"]).values()) == [1, 1]
+
+
+@pytest.mark.parametrize(
     ("text", "fragment"),
     [
         ("cool: 1, cool: 2", "cool is given twice"),
@@ -895,6 +919,12 @@ def test_two_letters_are_no_option_and_its_reason(text: str) -> None:
 
 def test_odds_are_a_quotient() -> None:
     assert read_number("2:15").value == read_number("1 : 7.5").value == fmpq(2, 15)
+
+
+@pytest.mark.parametrize("typed", ["0: 4.5", "1: 4.5", "1:4.5", "2: 9/2", "1: 4"])
+def test_what_may_be_the_number_of_a_question_is_no_odds(typed: str) -> None:
+    with pytest.raises(Unreadable):
+        read_number(typed)
 
 
 READERS = [
@@ -1209,3 +1239,16 @@ def test_a_number_stands_in_the_brackets_of_a_list_or_of_a_matrix_and_in_no_more
     assert [read_number(text).value for text in ("7/4", "[7/4]", "[[7/4]]")] == [fmpq(7, 4)] * 3
     with pytest.raises(Unreadable, match="use round brackets"):
         read_number("[[[7/4]]]")
+
+
+@pytest.mark.parametrize("typed", ["C, small", "C, or small", "C (small)", "C; all alike", "C - small", "none (small)"])
+def test_two_options_at_once_are_no_answer(typed: str) -> None:
+    options = {"A": "small", "B": "all alike", "C": "none"}
+    with pytest.raises(Unreadable):
+        read_choice(typed, options)
+
+
+def test_a_reason_may_speak_of_the_other_options() -> None:
+    options = {"A": "small", "B": "large", "C": "none"}
+    for typed in ("C, small and large do the same", "C, none", "none (they are too small)", "C (none)"):
+        assert read_choice(typed, options) == "C"

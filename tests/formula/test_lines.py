@@ -9,7 +9,7 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.formula.collecting import collected_next
 from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.lines import lines_between
-from rldrill.solutions.formula.nested import inner_brackets_first
+from rldrill.solutions.formula.nested import choices_first, inner_brackets_first
 from rldrill.solutions.formula.nodes.choices import Greatest
 from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, leaf
 from rldrill.solutions.formula.nodes.matrices import Blocks
@@ -161,3 +161,14 @@ def test_of_quotients_with_one_numerator_the_denominators_are_equal() -> None:
     rho = generator("rho")
     assert without_quotients(fmpq(-26) / (5 + rho), fmpq(-26, 7), "rho") == (5 + rho, 7)
     assert without_quotients(fmpq(2) / (2 + 3 * rho), fmpq(4, 5), "rho") == (10, 8 + 12 * rho)
+
+
+def test_the_greatest_number_is_chosen_before_the_bracket_around_it_is_worked_out() -> None:
+    step = total(12, times(HALF, total(4, times(P, MaxOf(leaf(4), leaf(-6))), times(-1, 12))))
+    lines = [shown(line) for line in lines_between(step, own=False)]
+    assert lines[0] == "12 + 1/2·(4 + 4p − 12)"
+
+
+def test_a_maximum_of_sums_is_not_chosen_before_they_are_worked_out() -> None:
+    assert shown(choices_first(times(HALF, MaxOf(total(1, 2), leaf(4))))) == "1/2·max{1 + 2; 4}"
+    assert shown(choices_first(MaxOf(leaf(4), leaf(2)))) == "max{4; 2}"

@@ -259,3 +259,20 @@ def test_a_long_name_is_not_cut_within_a_character(tmp_path: Path) -> None:
     text = page.written(verify([answers], Settings(allow_files=True)), "reason")
     assert f">x{'&amp;' * 30}.toml" in text
     assert not re.search("&(?!(amp|lt|gt|quot|#x27);)", text)
+
+
+def test_the_verdict_is_the_same_whether_it_is_searched_for_causes(tmp_path: Path) -> None:
+    # R_0 = 8 + 4/2 + 9/4 + 6/8 = 13; with γ·i for γⁱ R_1 = 9/2 + 6 = 21/2, and R_0 = 8 + 21/4 = 13.25, within 2 %.
+    path = tmp_path / "a.csv"
+    path.write_text("student,problem,part,answer\nA,return/1/56,b,13.25\nB,return/1/56,b,13.1\n")
+    searched, judged = (verify([path], Settings(rules=Rules(causes=causes))).students for causes in (True, False))
+    assert [student.parts[1].judged.verdict for student in searched] == ["wrong", "close"]
+    assert [student.parts[1].judged.verdict for student in judged] == ["wrong", "close"]
+
+
+def test_a_dictionary_as_python_prints_it_keeps_its_quotes_in_a_cell(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"  # V(worn) = 21/4; a mark before a text, as spreadsheets put it, is no part of it
+    typed = ["{'worn': '21/4'}", "['21/4']", "'21/4", '"=""21/4"""']
+    rows = "".join(f"{number},td-zero/1/62590,a,{text}\n" for number, text in enumerate(typed))
+    path.write_text(f"student,problem,part,answer\n{rows}")
+    assert [student.parts[0].judged.verdict for student in verify([path]).students] == ["right"] * len(typed)

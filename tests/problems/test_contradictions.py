@@ -498,6 +498,8 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("double-q-learning", DOUBLE, {"outcome": ["b", "y", 5]}, "outcome: (b, y) is not updated, so nothing follows"),
     ("double-q-learning", DOUBLE, {"outcome": ["a", "x", 5]}, "outcome: leave one number open, such as alpha"),
     ("dyna-q", DYNA, {"planned": [["b", "y"]]}, "planned: (b, y) is not in the model after the run"),
+    ("dyna-q", DYNA | {"trajectory": ENDED}, {"model": [["end", "x", 1, "a"]]},
+     "model: 'end' is terminal, so nothing is done there"),
     ("dyna-q", DYNA, {"model": [["b", "y", 1, "a"]] * 2},
      "model: (b, y) is given twice; a deterministic model holds it"),
     ("dyna-q", DYNA, {"changed": [["b", "y", 1, "a"]]}, "changed: (b, y) must be in the model and not be tried"),

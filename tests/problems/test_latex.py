@@ -13,6 +13,7 @@ REFUSED = [
     (r"1 + \frac{1}{2", r"{2", "The bracket '{' is not closed; close it."),
     (r"1 + \sqrt{2", r"{2", "The bracket '{' is not closed; close it."),
     (r"1 + \sqrt[3", r"[3", "The bracket '[' is not closed; close it."),
+    (r"1 + \var", r"\var", "The command '\\var' is not understood; write it in plain signs."),
     (r"1 + \foo", r"\foo", "The command '\\foo' is not understood; write it in plain signs."),
     (r"\frac{1}{2} + @", "@", "'@' is not understood here"),
     (r"\frac12@", "@", "'@' is not understood here"),

@@ -1,5 +1,6 @@
 """Sitting an exam: back and forth, nothing judged before the end, and the same points as verify gives."""
 
+import json
 import tomllib
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
@@ -12,7 +13,7 @@ from msgspec.structs import replace
 from rich.console import Console
 
 from rldrill.commands.quiz import _begun
-from rldrill.exam.blueprint import Blueprint, Entry
+from rldrill.exam.blueprint import Blueprint, Entry, read_blueprint
 from rldrill.exam.exam import Exam
 from rldrill.exam.manifest import manifest, read_manifest, written
 from rldrill.exam.planning import plan
@@ -424,3 +425,54 @@ def test_another_blueprint_does_not_go_on_with_an_exam_that_was_begun(tmp_path: 
         _begun(tmp_path / "b.toml", saved, None)
     with pytest.raises(UsageError, match="holds another exam"):
         _begun(tmp_path / "a.toml", saved, begun.seed + 1)
+
+
+def test_a_blueprint_that_is_sat_is_the_exam_that_is_printed_from_it_in_all_its_versions(tmp_path: Path) -> None:
+    path = tmp_path / "exam.toml"
+    path.write_text('seed = 5\nversions = 3\n[[problems]]\nfamily = "return"\n', encoding="utf-8")
+    printed = plan(read_blueprint(path))
+    begun = _begun(path, tmp_path / "exam-answers.json", None)
+    names = [[exercise.id for exercise in version.exercises] for version in printed.versions]
+    assert len({*map(tuple, names)}) == 3
+    assert [[exercise.id for exercise in version.exercises] for version in begun.versions] == names
+
+
+def test_who_sits_it_stays_in_the_file_and_problems_may_be_called_by_their_numbers(tmp_path: Path) -> None:
+    planned = plan(Blueprint(problems=PROBLEMS[:2], seed=1))
+    path = tmp_path / "answers.toml"
+    sit(Sitting(planned, planned.versions[0], path, START), "1/8", "leave")
+    first, second = (f"[{json.dumps(exercise.id)}]" for exercise in planned.versions[0].exercises)
+    written_ = path.read_text(encoding="utf-8")
+    head, _, rest = written_.partition(first)
+    path.write_text(f'{head}student = "Ann"\nnumber = 7\n[1]{rest.partition(second)[0]}', encoding="utf-8")
+    again = Sitting(planned, planned.versions[0], path, START)
+    again.resume()
+    assert list(again.answers.values()) == ["1/8"]
+    sit(again, "leave")
+    again.answer(again.places[1], "3")
+    again.save()
+    kept = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert (kept["student"], kept["number"]) == ("Ann", "7")
+    assert kept[planned.versions[0].exercises[0].id]["a"] == "1/8"
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        '[[problems]]\nid = "td-zero/1/62590"\n[[problems]]\nfamily = "td-zero"\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "sarsa"\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\ncount = 2\n',
+        '[[problems]]\nid = "return/1/430"\n',
+        'seed = 6\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
+    ],
+)
+def test_next_weeks_quiz_of_the_same_title_does_not_go_on_with_this_weeks(tmp_path: Path, other: str) -> None:
+    path, saved = tmp_path / "exam.toml", tmp_path / "exam-answers.json"
+    text = 'duration = 10\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n'
+    path.write_text(f"seed = 5\n{text}", encoding="utf-8")
+    begun = _begun(path, saved, None)
+    path.write_text(text.replace("10", "20"), encoding="utf-8")  # more time is no other exam
+    assert _begun(path, saved, None).versions == begun.versions
+    path.write_text(other, encoding="utf-8")
+    with pytest.raises(UsageError, match="holds another exam that was begun"):
+        _begun(path, saved, None)

@@ -127,6 +127,12 @@ def test_two_letters_are_both_told() -> None:
 
 LQR = {"A": 1, "B": 1, "Q": 1, "R": "rho", "start": 1}
 NO_SUCH = [
+    # x + 3(1 − x) = 7 for x = −2; 1 + x = 5 for x = 4; 2 + x(4 − 2) = 8 for x = 3.
+    ("value-from-action-values", {"values": {"A": {"l": 1, "r": 3}}, "policy": {"A": {"l": "x", "r": "1-x"}},
+     "known": {"A": 7}}, "x would have to be −2, and it lies between 0 and 1"),
+    ("return", {"rewards": [1, 1], "gamma": "x", "known": 5}, "x would have to be 4, and it lies between 0 and 1"),
+    ("td-zero", {"trajectory": {"states": ["A", "end"], "rewards": [4], "terminal": ["end"]}, "values": {"A": 2},
+     "gamma": 1, "alpha": "x", "known": 8}, "x would have to be 3, and it lies between 0 and 1"),
     ("lqr-backward", LQR | {"horizon": 1, "action": 1}, "ρ would have to be −2, and it is above 0"),
     ("forward-kinematics", {"lengths": ["w", 1], "angles": [0, "pi/2"], "x": -3}, "w would have to be −3"),
     ("linear-value", {"theta": [1, 2, 5, 9], "actions": ["l", "r"], "bumps": {"centres": [[0], [2]], "width": 3}},

@@ -1,6 +1,7 @@
 """An equation in one letter is solved in front of the reader."""
 
 import pytest
+import sympy
 from flint import fmpq
 
 from rldrill.render.unicode import unicode_text
@@ -49,7 +50,35 @@ def test_what_is_solved_is_said_once() -> None:
     assert written(work) == ["γ = 1/2"]
 
 
-@pytest.mark.parametrize(("left", "told"), [(gamma * gamma, "not linear in gamma"), (fmpq(3), "gamma falls out")])
+def test_a_root_may_stand_before_the_letter() -> None:
+    # √2/2 + √2/2·w = 2: w = 4/√2 − 1 = 2√2 − 1.
+    work = Work()
+    half = sympy.sqrt(2) / 2
+    assert work.equate("w", half + half * generator("w"), fmpq(2)) == 2 * sympy.sqrt(2) - 1
+    assert written(work)[-2:] == ["w·√2 = 4 − √2", "w = −1 + 2√2"]
+
+
+def test_a_letter_below_the_line_beside_a_closed_form() -> None:
+    # e/x = 4: x = e/4.
+    x = sympy.Symbol("x", positive=True)
+    assert Work().equate("x", sympy.E / x, fmpq(4)) == sympy.E / 4
+
+
+def test_a_closed_form_that_the_letter_cannot_be_is_told_as_a_decimal() -> None:
+    # √2 w = 1 − 2√2: w = √2/2 − 2 = −1.2929.
+    with pytest.raises(NoSolution, match="w would have to be about −1"):
+        Work().equate("w", sympy.sqrt(2) * generator("w"), 1 - 2 * sympy.sqrt(2), positive=True)
+
+
+@pytest.mark.parametrize(
+    ("left", "told"),
+    [
+        (gamma * gamma, "not linear in gamma"),
+        (fmpq(3), "gamma falls out"),
+        (sympy.sqrt(sympy.Symbol("gamma", positive=True)), "not linear in gamma"),
+        (sympy.sqrt(2) / sympy.Symbol("gamma", positive=True) + 4, "no value of gamma"),
+    ],
+)
 def test_what_is_not_linear_is_refused(left: object, told: str) -> None:
     with pytest.raises(NoSolution, match=told):
         Work().equate("gamma", left, fmpq(4))

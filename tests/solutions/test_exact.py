@@ -378,3 +378,8 @@ def test_values_of_other_forms_may_be_equal() -> None:
     assert equal(sympy.log(4), 2 * sympy.log(2))
     assert not equal(sympy.sqrt(2), fmpq(1414, 1000))
     assert not equal(fmpq(1, 3), fmpq(1, 2))
+
+
+def test_a_product_of_sums_of_numbers_comes_last_and_is_not_multiplied_out() -> None:
+    long = (1 + sympy.pi) ** 40 * (2 + sympy.E) ** 40  # some 1,600 terms
+    assert ordered(long + sympy.pi**2 + 3).args == (3, sympy.pi**2, long)

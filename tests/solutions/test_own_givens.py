@@ -131,6 +131,7 @@ def test_what_is_brought_has_the_answers_worked_by_hand(brought: str) -> None:
         ("lqr-infinite", {"A": [[2, 1], [0, 3]], "B": [[0], [0]], "Q": [[1, 0], [0, 1]], "R": [[1]]},
          "no action keeps the system from running away"),
         ("value-iteration", tie(2), "with no discount from 0 to 1 are both actions in 'start' greedy"),
+        ("value-iteration", tie(0), "both actions in 'start' are greedy with γ = 0, and no discount is smaller"),
     ],
 )  # fmt: skip
 def test_what_has_no_answer_is_refused_with_the_reason(family: str, given: dict[str, Any], says: str) -> None:

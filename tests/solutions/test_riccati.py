@@ -26,13 +26,41 @@ def test_a_discounted_system_that_is_stable_for_the_discount_alone() -> None:
     assert abs(regulator.before(S)[0, 0] - 2) < fmpq(1, 10**40)
 
 
-def test_a_state_that_costs_nothing_and_runs_away_has_no_answer() -> None:
-    with pytest.raises(NoSolution, match="the state does not come to rest: what it does costs nothing there"):
-        stationary(of_one(2, 0, 1))
+def test_a_state_that_costs_nothing_is_brought_to_rest_where_it_would_run_away() -> None:
+    # S = 4S − 4S²/(1 + S) has the solutions 0 and 3; with S = 3, L = 2·3/4 = 3/2 and A − BL = 1/2, the mirror of 2.
+    regulator = of_one(2, 0, 1)
+    S = stationary(regulator)
+    assert abs(S[0, 0] - 3) < fmpq(1, 10**40)
+    assert abs(regulator.gain(S)[0, 0] - fmpq(3, 2)) < fmpq(1, 10**40)
     # discounted by 1/5 it may run away: γ·2² = 4/5 is below 1, and nothing is ever paid
     assert stationary(of_one(2, 0, 1, fmpq(1, 5)))[0, 0] == 0
-    with pytest.raises(NoSolution, match="does not come to rest"):
-        stationary(of_one(2, 0, 1, fmpq(1, 4)))  # γ·2² = 1
+
+
+def test_two_coupled_states_that_cost_nothing_are_brought_to_rest() -> None:
+    # With S = ((3, −1), (−1, 1))/4: BᵀSB = 3, BᵀSA = (−1, −1), so L = (−1/4, −1/4); AᵀSA − (1, 1)ᵀ(1, 1)/4 is S again.
+    # A − BL = ((1/2, −1/2), (2, −1)) has the characteristic polynomial x² + x/2 + 1/2: both |x|² are 1/2.
+    A, B, Q, R, N = (
+        matrix([list(map(fmpq, line)) for line in rows])
+        for rows in ([[0, -1], [2, -1]], [[2], [0]], [[0, 0], [0, 0]], [[1]], [[0], [0]])
+    )
+    S = stationary(Regulator(A, B, Q, R, N, ONE))
+    off = S * 4 - matrix([[fmpq(3), fmpq(-1)], [fmpq(-1), fmpq(1)]])
+    assert max(map(abs, off.entries())) < fmpq(1, 10**40)
+
+
+@pytest.mark.parametrize("system", [(1, 0, 1), (-1, 0, 1), (2, 0, 1, fmpq(1, 4))])
+def test_a_state_that_costs_nothing_and_neither_grows_nor_falls_has_no_answer(system: tuple[int, int, int]) -> None:
+    # a = ±1, and γ·2² = 1: any gain that brings it to rest can be undercut by a smaller one.
+    with pytest.raises(NoSolution, match="the state does not come to rest: what it does costs nothing there"):
+        stationary(of_one(*system))
+
+
+def test_what_no_action_reaches_and_what_runs_away_at_a_price_are_told() -> None:
+    blind = of_one(2, 0, 1)._replace(B=matrix([[fmpq(0)]]))
+    with pytest.raises(NoSolution, match="no action reaches it"):
+        stationary(blind)
+    with pytest.raises(NoSolution, match="grows without end"):
+        stationary(blind._replace(Q=matrix([[ONE]])))
 
 
 def test_an_action_without_a_price_is_charged_what_it_leads_to() -> None:
