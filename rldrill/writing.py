@@ -1,10 +1,15 @@
 """Files written whole or not at all."""
 
 import os
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import monotonic, sleep
+
+#: What says that somebody else holds a lock.
+_HELD = (BlockingIOError, FileExistsError, PermissionError) if sys.platform == "win32" else (BlockingIOError,)
 
 
 @contextmanager
@@ -60,6 +65,43 @@ def begin(path: Path, data: bytes) -> bool:
     with whole(path, _put_first) as unfinished:
         _write(unfinished, data)
     return path.read_bytes() == data
+
+
+@contextmanager
+def alone(path: Path, seconds: float = 5.0) -> Iterator[None]:
+    """Where one process at a time reads a file and replaces it.
+
+    The lock goes with its process, however that ends. Who has waited for so many seconds, as for a process that was
+    stopped in the middle, goes on; so does everybody where there are no locks.
+    """
+    end, handle = monotonic() + seconds, None
+    while handle is None and monotonic() < end:
+        try:
+            handle = _locked(Path(os.path.realpath(path)))
+        except _HELD:
+            sleep(0.005)
+        except OSError:
+            break
+    try:
+        yield
+    finally:
+        if handle is not None:
+            os.close(handle)
+
+
+def _locked(path: Path) -> int:
+    """A handle that holds the lock of a file until it is closed: its folder's, since the file itself is replaced."""
+    if sys.platform == "win32":
+        return os.open(path.with_name(f".{path.name}.lock"), os.O_CREAT | os.O_EXCL | os.O_TEMPORARY)
+    import fcntl
+
+    handle = os.open(path.parent, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(handle)
+        raise
+    return handle
 
 
 def _put_first(unfinished: Path, path: Path) -> None:
