@@ -1,5 +1,6 @@
 """Files written whole or not at all."""
 
+import errno
 import os
 import sys
 import tempfile
@@ -26,9 +27,12 @@ def whole(path: Path, put: Callable[[Path, Path], object] = Path.replace) -> Ite
     Raises:
         OSError: the folder cannot be written to, or the disk is full; ``filename`` is set.
     """
+    unfinished = None
     try:
         takes = path.exists() and not path.is_file()
         real = Path(os.path.realpath(path))
+        if real.is_symlink():  # it leads to itself
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
         if not takes:
             real.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=None if takes else real.parent, prefix=f".{path.name[:40]}.")
@@ -44,6 +48,9 @@ def whole(path: Path, put: Callable[[Path, Path], object] = Path.replace) -> Ite
         finally:
             unfinished.unlink(missing_ok=True)
     except OSError as error:
+        is_another = unfinished is not None and error.filename not in (None, str(unfinished), str(real), str(path))
+        if error.errno is None or is_another:
+            raise
         raise OSError(error.errno, error.strerror, str(path)) from error
 
 
