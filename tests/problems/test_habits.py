@@ -36,6 +36,8 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
                            "motion": {"a": {"go": {"b": "1/3", "a": "2/3"}}, "b": {"go": {"b": 1}}}},
          {"actions": ["go"], "motion": {"go": {"a": {"b": "1/3", "a": "2/3"}, "b": {"b": 1}}}}),
         ("value-from-action-values", {"values": {"s": {"l": 1, "r": 3}}, "policy": "random"}, {"policy": "uniform"}),
+        ("value-from-action-values", {"values": {"s": {"random": 1, "r": 3}}, "policy": "random"},
+         {"policy": {"s": {"random": 1}}}),  # an action of that name
         # columns
         ("kalman-filter", {"mean": [1, 2], "covariance": [[1, 0], [0, 1]], "A": [[1, 1], [0, 1]], "B": [[0], [1]],
                            "C": [[1, 0]], "process": [[0, 0], [0, 0]], "sensor": 1, "steps": [{"u": [3], "z": [4]}]},
