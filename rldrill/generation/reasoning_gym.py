@@ -17,10 +17,12 @@ from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
-#: (a) 3/4, perhaps in a list, bold, or in the tags that models are told to put around an answer.
+#: (a) 3/4, perhaps in a list, bold, or in the tags that models are told to put around an answer; "A." begins a list of
+#: other things as well, so a capital needs its bracket or the word.
 _LINE = re.compile(
-    r"^[^\S\n]*(?:<answer>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?(?:part\s+)?\(?([a-z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
-    re.MULTILINE | re.IGNORECASE,
+    r"^[^\S\n]*(?:<(?i:answer)>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?(?:(?i:part)\s+)?\(?"
+    r"([a-z]|(?<=\()[A-Z]|(?<=[Pp]art )[A-Z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
+    re.MULTILINE,
 )
 _TAGS = ("</answer>", "**")
 
