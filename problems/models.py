@@ -323,7 +323,8 @@ def read_policy(value: object, info: ValidationInfo) -> object:
     value = by_states(value, {state: [*row] for state, row in known.items()}, note_of(info))
     if isinstance(value, list | tuple):
         return value
-    if not isinstance(value, dict) and value in UNIFORM:
+    an_action = any(value in actions for actions in known.values()) if isinstance(value, str) else False
+    if not isinstance(value, dict) and value in UNIFORM and not an_action:
         return _uniform(known)
     named = {str(name) for name in value} if isinstance(value, dict) else {str(value)}
     everywhere = named and not named & {*known} and all(named <= {*actions} for actions in known.values())

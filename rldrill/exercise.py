@@ -101,7 +101,11 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
         return markdown((Heading(self.problem.family.title), *self.question(), *asked))
 
     def solve(self) -> Mapping[str, Any]:
-        """The exact answer of every part, to calculate with: flint and sympy numbers, in tuples and dictionaries."""
+        """The exact answer of every part, to calculate with: flint and sympy numbers, in tuples and dictionaries.
+
+        With an open letter it is a rational function of rldrill's, which ``sympy.sympify`` takes. ``check`` and
+        ``grade`` take all of them as they are.
+        """
         return {label: _copied(answer) for label, answer in self.solution.answers.items()}
 
     def answers(self) -> dict[str, Any]:

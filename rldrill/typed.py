@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from numbers import Number, Rational, Real
 
-from flint import fmpq
-from sympy import Expr
+from flint import fmpq, fmpz
+from sympy import Expr, sympify
 
 from rldrill.problems.errors import UsageError
 
@@ -51,7 +51,8 @@ def _pairs(table: Mapping[object, object], what: str) -> Iterator[str]:
             for action, number in value.items():
                 yield f"({state}, {action}): {_scalar(number, what)}"
         else:
-            yield f"{state}: {_row(value, what)}"  # tied best actions, or a row of a table, stand in a list
+            name = f"({', '.join(map(str, state))})" if isinstance(state, tuple) else state
+            yield f"{name}: {_row(value, what)}"  # tied best actions, or a row of a table, stand in a list
 
 
 def _row(value: object, what: str) -> str:
@@ -72,8 +73,12 @@ def _scalar(value: object, what: str) -> str:
             return f"({value})" if _PARTING.search(value) and not whole else value  # it must not be read as several
         case fmpq():
             return f"{value.p}/{value.q}"
+        case fmpz():
+            return str(value)
         case Expr():
             return str(value)
+        case _ if hasattr(value, "_sympy_"):  # what solve() gives with an open letter
+            return str(sympify(value))
         case Rational():
             try:
                 return str(value)

@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from flint import fmpq, fmpz
 
 import rldrill
 from rldrill.problems.errors import UsageError
+from rldrill.solutions.rational import generator
 from rldrill.typed import typed
 
 
@@ -35,6 +37,9 @@ class Loud(float):
         (Fraction(1, 3), "1/3"),
         (True, "true"),
         (False, "false"),
+        (fmpz(-3), "-3"),
+        (1 / (2 - generator("gamma")), "1/(2 - gamma)"),
+        ({("cool", "fast"): fmpq(1, 2)}, "(cool, fast): 1/2"),
         ([], ""),
         ([1, 2], "[1, 2]"),
         ((1, "1/2"), "[1, 1/2]"),

@@ -390,8 +390,9 @@ FAULTY = [
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n{"problem": \n', "line 2, column"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n[]\n', "line 2: a line is an object"),
     ("a.jsonl", '{"problem": "td.toml"}', "line 1: the field 'answer' is missing"),
-    ("a.jsonl", '{"name": "Ann", "full name": "A", "problem": "td.toml", "answer": 1}', "the field 'student' stands"),
-    ("a.toml", 'name = "Ann"\n"Full name" = "A"\n"td.toml" = 1', "the field 'student' stands twice"),
+    ("a.jsonl", '{"name": "Ann", "full name": "A", "problem": "td.toml", "answer": 1}', "'name' and 'full name' stand"),
+    ("a.jsonl", '{"id": "td.toml", "question": "What?", "answer": 1}', "'id' and 'question' stand for the problem;"),
+    ("a.toml", 'name = "Ann"\n"Full name" = "A"\n"td.toml" = 1', "'name' and 'Full name' stand for the student"),
     ("a.csv", HEAD + "Ann,2a,b,1\n", "line 2: '2a' and the part 'b' stand there; keep one of them"),
     ("a.jsonl", '{"problem": 1.5, "answer": 1}', "'1.5' is neither a problem ID"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1, "answer": 2}', "line 1: the key 'answer' stands twice"),
@@ -491,7 +492,9 @@ terminal = ["end"]
     assert verify([sheet]).parts[0].judged.verdict == "right"
 
 
-@pytest.mark.parametrize("typed", ["3-Apr", "03. Apr", "Mar-04", "4 March", "12-Dez-2024", "2024-04-03", "1. Mai"])
+@pytest.mark.parametrize(
+    "typed", ["3-Apr", "03. Apr", "Mar-04", "4 March", "12-Dez-2024", "2024-04-03", "1. Mai", "04. Mrz"]
+)
 def test_dates_are_told(folder: Path, typed: str) -> None:
     sheet = write(folder, "a.csv", f"problem,part,answer\nreturn.toml,a,{typed}\n")
     assert "is a date" in verify([sheet]).parts[0].judged.reason

@@ -1,12 +1,13 @@
 """Files that are written whole: which of several writers has begun one."""
 
+import re
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from threading import Barrier
 
 import pytest
 
-from rldrill.writing import begin
+from rldrill.writing import begin, whole, write_bytes_atomically
 
 
 def test_of_several_that_begin_a_file_at_once_one_does_and_the_others_are_told(tmp_path: Path) -> None:
@@ -24,6 +25,25 @@ def test_of_several_that_begin_a_file_at_once_one_does_and_the_others_are_told(t
             assert [is_ours for is_ours, _ in found].count(True) == 1
             assert {text for _, text in found} == {path.read_bytes()}
     assert len(list(tmp_path.iterdir())) == 25
+
+
+def test_an_error_of_something_else_keeps_its_words(tmp_path: Path) -> None:
+    for error in (OSError("the printer is on fire"), FileNotFoundError(2, "No such file", "other.txt")):
+        with pytest.raises(OSError, match=re.escape(str(error))) as raised, whole(tmp_path / "new"):
+            raise error
+        assert raised.value is error
+    with pytest.raises(OSError, match="new") as raised, whole(tmp_path / "new"):
+        raise OSError(28, "No space left on device")
+    assert raised.value.filename == str(tmp_path / "new")
+
+
+def test_a_link_that_names_itself_stays_and_is_told(tmp_path: Path) -> None:
+    link = tmp_path / "link"
+    link.symlink_to(link)
+    with pytest.raises(OSError, match="link") as raised:
+        write_bytes_atomically(link, b"1")
+    assert raised.value.filename == str(link)
+    assert link.is_symlink()
 
 
 def test_a_file_is_begun_where_there_are_no_links(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,11 +17,13 @@ from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
-#: (a) 3/4, perhaps in a list, bold, behind "the answer is", or in the tags that models put around an answer.
+#: (a) 3/4, perhaps in a list, bold, behind "the answer is", or in the tags that models put around an answer; "A." begins
+#: a list of other things as well, so a capital needs its bracket or the word.
 _LINE = re.compile(
-    r"^[^\S\n]*(?:<answer>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?"
-    r"(?:(?:the[^\S\n]++)?(?:final[^\S\n]++)?answer(?:[^\S\n]++is)?[^\S\n]*+:?+(?:\*\*)?+[^\S\n]*+)?(?:part\s+)?\(?([a-z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
-    re.MULTILINE | re.IGNORECASE,
+    r"^[^\S\n]*(?:<(?i:answer)>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?"
+    r"(?i:(?:the[^\S\n]++)?(?:final[^\S\n]++)?answer(?:[^\S\n]++is)?[^\S\n]*+:?+(?:\*\*)?+[^\S\n]*+)?"
+    r"(?:(?i:part)\s+)?\(?([a-z]|(?<=\()[A-Z]|(?<=[Pp]art )[A-Z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
+    re.MULTILINE,
 )
 _TAGS = ("</answer>", "**")
 _BOXED = re.compile(r"\\boxed\s*\{((?:[^{}]|\{[^{}]*\})*)\}")

@@ -227,8 +227,10 @@ def _meanings(keys: Sequence[str], where: str) -> dict[str, str]:
     """
     names = meant(keys)
     for name in _KNOWN:
-        if names.count(name) > 1:
-            raise FileError(f"{where}: the field '{name}' stands twice; keep one of them.")
+        alike = [key for key, meaning in zip(keys, names, strict=True) if meaning == name]
+        if len(alike) > 1:
+            called = " and ".join(map(repr, alike))
+            raise FileError(f"{where}: the fields {called} stand for the {name}; keep one of them.")
     return dict(zip(keys, names, strict=True))
 
 

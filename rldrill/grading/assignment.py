@@ -42,15 +42,16 @@ class _People:
         for key in {folded(sitting.number), folded(sitting.student)} - {""}:
             self._called.setdefault(key, []).append(sitting)
         if sitting.number:
-            self._numbered.setdefault(_without_zeros(sitting.number), []).append(sitting)
+            self._numbered.setdefault(without_zeros(sitting.number), []).append(sitting)
 
     def meant(self, number: str, name: str) -> Sitting | None:
         """The one who has the number, or else the name; one without a version where several have it, None if nobody."""
         correct = f", and none of them has the number {number!r}; correct it." if number else "; give the number."
         for found, what in (
             (self._called.get(folded(number)), f"have the number {number!r}; correct the roster."),
-            (self._numbered.get(_without_zeros(number)), f"have the number {number!r}; correct the roster."),
+            (self._numbered.get(without_zeros(number)), f"have the number {number!r}; correct the roster."),
             (self._called.get(folded(name)), f"are called {name!r}{correct}"),
+            (self._numbered.get(without_zeros(name)), f"have the number {name!r}; correct the roster."),
         ):
             if found:
                 several = Sitting(name, number, None, f"several students on the roster {what}")
@@ -58,7 +59,7 @@ class _People:
         return None
 
 
-def _without_zeros(number: str) -> str:
+def without_zeros(number: str) -> str:
     """A number as a spreadsheet leaves it, which drops the zeros before it."""
     number = folded(number)
     return number.lstrip("0") or number[-1:]
@@ -97,7 +98,7 @@ class Assignment:
             (self._all,) = self.versions.values()
         people = [Sitting(each.person.name, each.person.number, each) for each in self.versions.values() if each.person]
         if roster is not None:
-            self._read(roster, people)
+            self._read(roster, people if version is None else [])
             self._all = None
         elif version is None and people:
             for each in people:

@@ -41,7 +41,7 @@ _PROBLEMS = 200
 _OTHER_DRAWS = 16
 _COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
 _MONTH = (
-    "(?:jan(?:uary?)?|feb(?:ruary?)?|m[aä]r(?:ch|z)?|apr(?:il)?|ma[iy]|jun[ei]?|jul[iy]?|aug(?:ust)?|sep(?:t|tember)?|"
+    "(?:jan(?:uary?)?|feb(?:ruary?)?|m(?:[aä]r(?:ch|z)?|rz)|apr(?:il)?|ma[iy]|jun[ei]?|jul[iy]?|aug(?:ust)?|sep(?:t|tember)?|"
     "o[ck]t(?:ober)?|nov(?:ember)?|de[cz](?:ember)?)"
 )
 #: What a spreadsheet makes of 3/4: 3-Apr, 4-Mar, Apr-03, 03. Apr, 2024-04-03, 03.04.2024, 3/4/2024.

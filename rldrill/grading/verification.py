@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from rldrill.files import shown
 from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers, whose_file
-from rldrill.grading.assignment import Assignment, Sitting
+from rldrill.grading.assignment import Assignment, Sitting, without_zeros
 from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
 from rldrill.grading.report import (
@@ -187,9 +187,9 @@ class _Run:
 
     def _unread(self, sitting: Sitting) -> str:
         """What is known of somebody of whom nothing was read: whether they handed in something all the same."""
-        names = {folded(name) for name in (sitting.student, sitting.number) if name}
+        names = {without_zeros(name) for name in (sitting.student, sitting.number) if name}
         unreadable = [each for each in self._refused if each.exit_code == FileError.exit_code]
-        if any({folded(each.student), folded(each.number)} & names for each in unreadable):
+        if any({without_zeros(each.student), without_zeros(each.number)} & names for each in unreadable):
             return UNREAD
         if any(each.line is None and not each.student for each in unreadable):
             return PERHAPS

@@ -17,7 +17,7 @@ from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.parts import Part
 from rldrill.typed import typed
-from rldrill.writing import write_bytes_atomically
+from rldrill.writing import alone, write_bytes_atomically
 
 _BEGUN, _HANDED_IN = "# begun: ", "# handed in: "
 _MOMENT = re.compile(rf"^(?:{_BEGUN}|{_HANDED_IN})(\S+)$", re.MULTILINE)
@@ -98,7 +98,14 @@ class Sitting(Struct):
         Raises:
             OSError: it cannot be written.
         """
-        self._take_in_others()
+        with alone(self.path):
+            self._take_in_others()
+            text = self._written()
+            write_bytes_atomically(self.path, text.encode())
+        self._kept = text
+        self._changed.clear()
+
+    def _written(self) -> str:
         lines = [f"# {' '.join(self.exam.head.title.split())}, version {self.version.code}"]
         lines.append(f"{_BEGUN}{self.begun.isoformat()}")
         if self.handed_in is not None:
@@ -111,10 +118,7 @@ class Sitting(Struct):
                 for index, part in enumerate(exercise.parts)
                 if (text := self.answers.get(Place(number, index))) is not None
             ]
-        text = "\n".join(lines) + "\n"
-        write_bytes_atomically(self.path, text.encode())
-        self._kept = text
-        self._changed.clear()
+        return "\n".join(lines) + "\n"
 
     def _take_in_others(self) -> None:
         """Take in what another terminal wrote since this one last did; of one part the later answer stays."""

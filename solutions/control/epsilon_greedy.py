@@ -43,23 +43,23 @@ def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
     chances = epsilon_greedy(work, given.state, values, exact(given.epsilon), only=needed)
     if given.taken:
         work.say(f"{given.taken.action} is taken with probability ${shown(given.taken.probability)}$:")
-        epsilon = work.answer(_rate(work, chances[given.taken.action], given.taken.probability))
+        epsilon = work.answer(_rate(given, work, chances[given.taken.action], given.taken.probability))
         if given.valued:
             _average(given, work, epsilon_greedy(work, given.state, values, epsilon))
     elif given.state_value is not None:
         worth = _value(given, work, chances)
         work.say(f"This value is ${shown(given.state_value)}$:")
-        epsilon = work.answer(_rate(work, worth, given.state_value))
+        epsilon = work.answer(_rate(given, work, worth, given.state_value))
         work.answer(epsilon_greedy(work, given.state, values, epsilon))
 
 
-def _rate(work: Work, found: Value, wanted: Fraction) -> Value:
+def _rate(given: Given, work: Work, found: Value, wanted: Fraction) -> Value:
     """The ε with which what was found is what is wanted.
 
     Raises:
         NoSolution: it is no probability.
     """
-    epsilon = work.equate("epsilon", found, exact(wanted))
+    epsilon = work.equate(given.left_open[0], found, exact(wanted))
     if work.misconception is None and (sign(epsilon) < 0 or sign(epsilon - 1) > 0):
         raise NoSolution(f"no ε from 0 to 1 leads to {shown(wanted)}, only ε = {told(epsilon)}; change what is given")
     return epsilon

@@ -4,7 +4,7 @@ from rldrill.problems.document import joined
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.markov_property import Given, Seen, where
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_rational, sign
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_rational, sign, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -59,6 +59,8 @@ def _completed(given: Given, work: Work) -> Given:
     count = work.answer(work.equate(str(hidden.weight), share, wanted))
     if not is_rational(count):
         raise NoSolution("the missing count must be a number")
+    if work.misconception is None and not given.probabilities and (count < 0 or count.q != 1):
+        raise NoSolution(f"the missing count would have to be {told(count)}, and counts are whole numbers")
     rows = [row._replace(weight=Fraction(int(count.p), int(count.q))) if row == hidden else row for row in given.table]
     return given.model_copy(update={"table": tuple(rows)})
 

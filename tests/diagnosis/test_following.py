@@ -186,3 +186,97 @@ def test_lines_are_as_far_apart_as_numbers_stand_in_one_alone() -> None:
 def test_a_line_that_begins_with_a_sign_is_no_name(run: rldrill.Exercise, line: str, standing: str) -> None:
     (told,) = run.follow([line]).lines  # what is right is 10
     assert told.standing == standing
+
+
+SOUGHT = {
+    "family": "td-zero",
+    "given": {
+        "trajectory": {"states": ["cave", "rim"], "rewards": [8]},
+        "values": {"cave": 8, "rim": 4},
+        "alpha": "1/2",
+        "gamma": "gamma",
+        "known": 9,
+    },
+}
+
+
+# 8 + 1/2·(8 + 4γ − 8) = 8 + 2γ = 9, so 2γ = 1 and γ = 1/2.
+@pytest.mark.parametrize(
+    "line",
+    [
+        "V(cave) = 8 + 1/2*(8 + 4γ - 8) = 8 + 2γ",
+        "8 + 2γ",
+        "8 + 2γ = 9",
+        "9 = 8 + gamma*2",
+        "2γ = 9 - 8 = 1",
+        "γ = 1/2",
+        "gamma: 0.5",
+        "= 1/2",
+        "1/2",
+        "so V(cave) = 8 + 2*1/2 = 9",
+        "V(cave) = 9, γ = 1/2",
+        "(1 - γ)*2 = 1",
+    ],
+)
+def test_the_letter_that_is_sought_may_stand_in_a_right_working(line: str) -> None:
+    (told,) = rldrill.read(SOUGHT).follow([line]).lines
+    assert (told.standing, told.sentence) == ("right", "")
+
+
+@pytest.mark.parametrize("line", ["γ = 1/4", "8 + 2γ = 10", "V(cave) = 8 + 4γ = 9"])
+def test_an_equation_that_the_letter_does_not_solve_goes_wrong(line: str) -> None:
+    (told,) = rldrill.read(SOUGHT).follow([line]).lines
+    assert (told.standing, told.sentence) == ("departs", "Here the working goes wrong.")
+
+
+def test_of_a_wrong_line_with_a_letter_nothing_is_said_of_the_next_ones() -> None:
+    # without V(cave) in the brackets: 8 + 1/2·(8 + 4γ) = 12 + 2γ, from which γ would be −3/2
+    lines = ["V(cave) = 8 + 1/2*(8 + 4γ) = 12 + 2γ", "12 + 2γ = 9", "γ = -3/2"]
+    assert [line.standing for line in rldrill.read(SOUGHT).follow(lines).lines] == ["departs", "unread", "unread"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "V(rim) = 5",  # given
+        "V(cave) = 8",  # before the first update
+        "so r_1 = 8",
+        "V(cave) = 10, V(floor) = 5 and V(cave) = 17/4",
+        "V^pi(floor) = 5",
+        "V'(cave) = 10",
+        "x = 5",
+    ],
+)
+def test_what_is_given_or_found_is_right_under_any_name(run: rldrill.Exercise, line: str) -> None:
+    (told,) = run.follow([line]).lines
+    assert told.standing == "right"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "n = 1",
+        "A = B = C = 1",
+        "(e)",
+        "(E).",
+        "The episode ends at T = 3.",
+        "3V(cave) = 31",
+        "⎡1/2  3⎤",
+        "c(3 - 1) = 7",
+    ],
+)
+def test_what_is_no_step_is_not_held_against_one(run: rldrill.Exercise, line: str) -> None:
+    (told,) = run.follow([line]).lines
+    assert told.standing == "unread"
+
+
+def test_a_line_that_begins_with_an_equals_sign_or_a_plus_goes_on_with_the_one_before(run: rldrill.Exercise) -> None:
+    lines = ["V(cave) = 8 + 1/2*8", "+ 1/2*(1/2*8 - 8)", "= 12 - 2", "= 10", "V(floor) = 8 + 1/2*(-3 + 5 - 8)", "= 4"]
+    told = run.follow(lines).lines
+    assert [line.standing for line in told] == ["right", "right", "right", "right", "right", "miscalculated"]
+    assert [line.text for line in told] == lines
+
+
+def test_of_two_equations_on_a_line_the_wrong_one_is_told(run: rldrill.Exercise) -> None:
+    (told,) = run.follow(["V(cave) = 10, V(floor) = 9"]).lines
+    assert (told.standing, told.step) == ("departs", 1)

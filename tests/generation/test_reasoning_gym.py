@@ -62,6 +62,8 @@ def test_answers_may_be_set_as_models_set_them() -> None:
     assert dataset.score_answer(f"\\boxed{{{dataset[0]['answer']}}}", dataset[0]) == 1
     capitals = dataset[0]["answer"].replace("(a)", "(A)").replace("(b)", "(B)")
     assert dataset.score_answer(capitals, dataset[0]) == 1
+    # "A." may begin a list of what was done, and is no part.
+    assert dataset.score_answer(f"{dataset[0]['answer']}\nA. First I added the rewards.", dataset[0]) == 1
     # A part without its answer takes none from the next one.
     assert dataset.score_answer(f"(a)\n(b) {second}", dataset[0]) == 0.5
 

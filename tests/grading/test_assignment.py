@@ -540,3 +540,27 @@ def test_a_file_that_is_named_twice_is_read_once(tmp_path: Path) -> None:
         )
         assert [each.remark for each in report.students] == ([""] if settings.assignment else [])
         assert len(report.refused) == (0 if settings.assignment else 1)  # problem 1 of which exam?
+
+
+def test_the_version_that_is_said_is_that_of_all_whomever_the_exam_was_printed_for(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, roster=TWO)  # Ann has A, Ben has B
+    roster = tmp_path / "roster.csv"
+    roster.write_text("name,number\nBen Ali,0009\nDora,99\n", encoding="utf-8")
+    right = keys(made.versions[0])["1", "a"]
+    rows = [("Ben Ali", "", "1", "a", right), ("Dora", "", "1", "a", right)]
+    report = graded(tmp_path, rows, Assignment(path, version="A", roster=roster))
+    found = [(each.student, each.version, each.parts[0].judged.verdict) for each in report.students]
+    assert found == [("Ben Ali", "A", "right"), ("Dora", "A", "right")]
+
+
+def test_a_number_in_the_column_of_names_may_have_lost_its_zeros_too(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    (ben, _) = graded(tmp_path, [("9", "", "1", "a", "1")], Assignment(path)).students
+    assert ben.student == "Ben Ali"
+
+
+@pytest.mark.parametrize("row", [("", "9"), ("9", "")])
+def test_whose_row_cannot_be_read_is_known_by_a_number_without_its_zeros(tmp_path: Path, row: tuple[str, str]) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    report = graded(tmp_path, [(*row, "xx", "a", "1", "and more")], Assignment(path))
+    assert [each.unread for each in report.students] == ["", "handed in, could not be read"]

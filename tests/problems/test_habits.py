@@ -60,6 +60,8 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
         ("value-from-action-values", {"values": {"s": {"l": 1, "r": 3}}, "policy": "random"}, {"policy": "uniform"}),
         ("monte-carlo", {"episode": RUN, "V": {"a": 0, "b": 0}, "alpha": 1, "gamma": 1, "visits": "every"},
          {"trajectory": RUN, "values": {"a": 0, "b": 0}}),
+        ("value-from-action-values", {"values": {"s": {"random": 1, "r": 3}}, "policy": "random"},
+          {"policy": {"s": {"random": 1}}}),  # an action of that name
         # columns
         ("kalman-filter", {"mean": [1, 2], "covariance": [[1, 0], [0, 1]], "A": [[1, 1], [0, 1]], "B": [[0], [1]],
                            "C": [[1, 0]], "process": [[0, 0], [0, 0]], "sensor": 1, "steps": [{"u": [3], "z": [4]}]},

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from pathlib import Path
+from threading import Barrier, Thread
 from typing import Any
 
 import pytest
@@ -360,6 +361,29 @@ def test_two_terminals_that_begin_an_exam_at_once_keep_what_was_typed_in_either(
     third.resume()
     assert third.answers == {Place(0, 0): "1", Place(0, 1): "2"}
     assert third.begun == second.begun == START
+
+
+def test_two_terminals_that_answer_at_the_same_moment_lose_nothing_of_each_other(tmp_path: Path) -> None:
+    planned = plan(Blueprint(problems=tuple(Entry(family="return", level=1) for _ in range(8)), seed=1))
+    path, side_by_side = tmp_path / "answers.toml", Barrier(2)
+    one, other = (Sitting(planned, version_of(planned, None), path, START) for _ in range(2))
+    one.save()
+
+    def type_into(sitting: Sitting, part: int) -> None:
+        for problem in range(8):
+            side_by_side.wait()
+            sitting.answer(Place(problem, part), "1")
+            sitting.save()
+
+    threads = [Thread(target=type_into, args=each) for each in ((one, 0), (other, 1))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    again = Sitting(planned, version_of(planned, None), path, START)
+    again.resume()
+    assert again.answers == dict.fromkeys(again.places, "1")
+    assert [each.name for each in tmp_path.iterdir()] == ["answers.toml"]
 
 
 def test_what_is_handed_in_elsewhere_is_over_here(sitting: Sitting) -> None:

@@ -110,6 +110,12 @@ BROUGHT: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
         {"a": {"start": Fraction(1), "far": Fraction(1)}, "b": Fraction(1), "c": "A"},
     ),
     "one sample without a range": ("ppo-clip", SAMPLE, {"a": Fraction(1, 2), "b": Fraction(0), "c": Fraction(2)}),
+    # (1 − x)·9 + x·(9 + 8)/2 = 9 − x/2 = 35/4
+    "a rate by a letter of one's own": (
+        "epsilon-greedy",
+        {"state": "s", "values": {"l": 9, "r": 8}, "epsilon": "x", "valued": False, "state_value": "35/4"},
+        {"a": Fraction(1, 2), "b": {"l": Fraction(3, 4), "r": Fraction(1, 4)}},
+    ),
 }
 
 
@@ -130,6 +136,10 @@ def test_what_is_brought_has_the_answers_worked_by_hand(brought: str) -> None:
          "some action costs nothing"),
         ("lqr-infinite", {"A": [[2, 1], [0, 3]], "B": [[0], [0]], "Q": [[1, 0], [0, 1]], "R": [[1]]},
          "no action keeps the system from running away"),
+        # x/(x + 1) = 1/3 for x = 1/2
+        ("markov-property",
+         {"table": [["a", "n", "p", 1], ["a", "n", "q", 2], ["b", "n", "p", "x"], ["b", "n", "q", 1]], "asked": "p"},
+         "the missing count would have to be 1/2, and counts are whole numbers"),
         ("value-iteration", tie(2), "with no discount from 0 to 1 are both actions in 'start' greedy"),
         ("value-iteration", tie(0), "both actions in 'start' are greedy with γ = 0, and no discount is smaller"),
     ],
