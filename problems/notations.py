@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import fields, replace
 
 from rldrill.problems.errors import UsageError
-from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Row, Script, mathematics, row
+from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Name, Row, Script, mathematics, row
 
 #: The notation that everything is written in unless another one is asked for.
 LECTURE = "lecture"
@@ -203,7 +203,7 @@ def _inside(notation: Notation, value: Any) -> Any:
 
 
 def _relettered(notation: Notation, glyph: Glyph) -> Glyph:
-    match = _INDEXED.fullmatch(glyph.text) if glyph.style == "variable" else None
+    match = _INDEXED.fullmatch(glyph.text) if glyph.style == "variable" and not isinstance(glyph, Name) else None
     if match is None or match["stem"] not in notation.letters:
         return glyph
     return Glyph(notation.letters[match["stem"]] + match["index"], "variable")

@@ -102,6 +102,31 @@ def test_the_lectures_notation_is_untouched() -> None:
     assert str(exercise.hint()) == before
 
 
+def written(exercise: rldrill.Exercise) -> str:
+    """Everything that is asked, hinted, worked out and answered."""
+    blocks = [*exercise.question()]
+    for part in exercise.parts:
+        asked = (Paragraph(part.ask), exercise.answer(part))
+        blocks += [*asked, *exercise.hint(part.label), *exercise.working(part.label)]
+    return "\n".join(map(unicode_text, blocks))
+
+
+ONE = {"states": ["s", "end"], "actions": ["a"], "rewards": [1], "terminal": ["end"]}
+TWO = {"states": ["a", "u", "end"], "rewards": [1, 2], "terminal": ["end"]}
+
+
+def test_the_names_of_states_and_actions_are_no_letters_of_a_notation() -> None:
+    given = {"trajectory": ONE, "values": {"s": {"a": 1, "u": 0}}, "alpha": "1/2", "gamma": 1}
+    with used("control"):
+        exercise = rldrill.read({"family": "q-learning", "given": given})
+        assert "Q(s, a)" in unicode_text(Paragraph(exercise.parts[0].ask))  # Q(x, u) is another action's
+        assert "Q(s, a) ← 1 + 1/2·(1 + 1·0 − 1)" in written(exercise)
+        given = {"trajectory": TWO, "values": {"a": 4, "u": 8}, "alpha": "1/2", "gamma": 1}
+        told = written(rldrill.read({"family": "td-zero", "given": given}))
+        assert "V(a) ← 4 + 1/2·(1 + 1·8 − 4)" in told
+        assert "V(u) ← 8 + 1/2·(2 + 1·0 − 8)" in told
+
+
 def test_names_and_answers_stay() -> None:
     with used("control"):
         exercise = rldrill.load("td-zero/2/7")
