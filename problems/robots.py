@@ -2,11 +2,11 @@
 
 import cmath
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from functools import cache
 from itertools import zip_longest
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from msgspec import Struct, field
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
@@ -57,6 +57,8 @@ class System(Givens):
     expressions, each in terms of those before it. ``picture`` draws it at the operating point: a pendulum by its
     angle θ from hanging down, an arm by the angles θ_1 and θ_2 of its links and their lengths l_1 and l_2.
     """
+
+    OWN: ClassVar[str] = "A"  # the matrix
 
     dynamics: Lettered[Expression] = Field(
         min_length=1, max_length=6, description="For every letter of the state its rate of change."
@@ -112,6 +114,11 @@ class System(Givens):
         if self.picture and (missing := {*_SEEN[self.picture]} - {*self.state, *self.constants}):
             raise ValueError(f"picture: there is no {min(missing)}, which the picture of {self.picture!r} shows")
         return self
+
+    def own_letters(self) -> Set[str]:
+        """The letters that it has for states, actions, constants and parts, besides those left open."""
+        named = (*self.state, *self.action, *self.constants, *self.where)
+        return super().own_letters() | {name[0] for name in named}
 
     @property
     def held(self) -> bool:

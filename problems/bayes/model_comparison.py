@@ -1,7 +1,7 @@
 """The evidences of models of a coin, their posterior odds, and which of them is the most probable."""
 
 from functools import cache, lru_cache
-from typing import Annotated, Self
+from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
 
@@ -82,6 +82,8 @@ class Given(AskedFor):
 
     With ``odds`` the prior is left open, and found for two models from these posterior odds.
     """
+
+    OWN: ClassVar[str] = "a"
 
     models: Annotated[dict[Name, CoinModel], Field(min_length=2, max_length=10), once(read_name)] = Field(
         description="The models by their names."
