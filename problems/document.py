@@ -4,7 +4,7 @@ Every text may hold mathematics between ``$`` signs (see ``rldrill.problems.math
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
 from msgspec import Struct
@@ -123,6 +123,22 @@ def kept(written: Any) -> Any:
         case tuple():
             return tuple(map(kept, written))
     return written
+
+
+def mathematics_in(written: Any) -> Iterator[Math]:
+    """The mathematics in blocks, in texts and in all that holds some."""
+    match written:
+        case str():
+            yield from (read_mathematics(piece) for piece in _PIECES.findall(written) if piece)
+        case Equation(left, rights):
+            yield from (left, *rights)
+        case Struct():
+            yield from mathematics_in(tuple(getattr(written, field.name) for field in fields(written)))
+        case Mapping():
+            yield from mathematics_in(tuple(written.values()))
+        case tuple():
+            for each in written:
+                yield from mathematics_in(each)
 
 
 def joined(items: list[str]) -> str:

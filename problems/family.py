@@ -16,14 +16,14 @@ from pydantic_core import to_jsonable_python
 
 from rldrill.problems.angles import Angle
 from rldrill.problems.complaints import sentence
-from rldrill.problems.document import Document, kept
+from rldrill.problems.document import Document, kept, mathematics_in
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import PARAMETERS, Logarithm, Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.habits import settled
 from rldrill.problems.identity import LEVELS, Identity
-from rldrill.problems.notations import AS_IT_STANDS, LECTURE, in_use, spares, used
+from rldrill.problems.notations import AS_IT_STANDS, LECTURE, Writing, in_use, takes, used
 from rldrill.problems.parts import Numbers, Part, Policy, Values, lettered
 from rldrill.problems.readings import Note
 
@@ -307,21 +307,36 @@ class Problem(Struct, frozen=True, dict=True):
     @property
     def question(self) -> Question:
         """The situation and the parts, as they are printed."""
-        return self._kept if self.keeps_letters else self._question
+        writing = in_use()
+        if writing not in self._questions:
+            self._questions[writing] = self._kept() if self.keeps_letters else self.family.question(self.given)
+        return self._questions[writing]
 
     @cached_property
-    def _question(self) -> Question:
-        return self.family.question(self.given)
+    def _questions(self) -> dict[Writing, Question]:
+        """The question in every way in which it was asked for: equations are rewritten when they are made."""
+        return {}
 
-    @cached_property
+    def _plain(self) -> Question:
+        with used(LECTURE):
+            return self.question
+
     def _kept(self) -> Question:
-        question = self.written(lambda: self.family.question(self.given))
+        question = kept(self._plain())
         return replace(question, parts=tuple(map(_named, question.parts)))
 
     @property
     def keeps_letters(self) -> bool:
         """Whether the notation in use has letters of the problem's own, so that the problem stays in the lecture's."""
-        return in_use().notation != LECTURE and spares(self.given.own_letters())
+        notation = in_use().notation
+        if notation not in self._keeps:
+            self._keeps[notation] = takes(self.given.own_letters(), mathematics_in(self._plain()))
+        return self._keeps[notation]
+
+    @cached_property
+    def _keeps(self) -> dict[str, bool]:
+        """The same of every notation that was in use."""
+        return {LECTURE: False}
 
     def written(self, make: Callable[[], Written]) -> Written:
         """What is made, from blocks and texts of the problem, in the notation that the problem is written in."""

@@ -129,10 +129,13 @@ def known(name: str) -> str:
     return wanted
 
 
-def spares(letters: Set[str]) -> bool:
-    """Whether the notation in use takes one of these letters, or has it for something else."""
+def takes(letters: Set[str], written: Iterable[Math]) -> bool:
+    """Whether the notation in use takes one of these letters, or has it for something else that is written."""
     name = _in_use.get().notation
-    return name != LECTURE and not letters.isdisjoint(notations()[name].takes | notations()[name].gives)
+    if name == LECTURE or letters.isdisjoint(notations()[name].takes | notations()[name].gives):
+        return False
+    given = (_letters((_translated(name, math, False),)) - _letters((math,)) for math in written)
+    return not letters.isdisjoint(notations()[name].takes) or any(not letters.isdisjoint(each) for each in given)
 
 
 def read_mathematics(text: str) -> Math:
