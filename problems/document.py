@@ -4,13 +4,23 @@ Every text may hold mathematics between ``$`` signs (see ``rldrill.problems.math
 """
 
 import re
-from typing import TypeAlias
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
 
 from msgspec import Struct
-from msgspec.structs import force_setattr, replace
+from msgspec.structs import fields, force_setattr, replace
 
-from rldrill.problems.mathematics import Math, mathematics
-from rldrill.problems.notations import PLAIN, Writing, all_in_notation, in_use, with_mark
+from rldrill.problems.mathematics import Math
+from rldrill.problems.notations import (
+    AS_IT_STANDS,
+    PLAIN,
+    Writing,
+    all_in_notation,
+    as_it_stands,
+    in_use,
+    read_mathematics,
+    with_mark,
+)
 
 
 class Block:
@@ -95,8 +105,40 @@ _PIECES = re.compile(r"\$([^$]*)\$")
 def pieces(text: str) -> list[str | Math]:
     """Take a text apart into plain text and mathematics, each as it is written now."""
     parts = _PIECES.split(text)
-    found = iter(all_in_notation([mathematics(part) for part in parts[1::2] if part]))
+    found = iter(all_in_notation([read_mathematics(part) for part in parts[1::2] if part]))
     return [next(found) if index % 2 else with_mark(part) for index, part in enumerate(parts) if part]
+
+
+def kept(written: Any) -> Any:
+    """Blocks, texts and all that holds some, with their mathematics as the lecture writes it in every notation."""
+    match written:
+        case str():
+            return _PIECES.sub(lambda piece: f"${AS_IT_STANDS}{piece[1].removeprefix(AS_IT_STANDS)}$", written)
+        case Equation(left, rights):
+            return replace(written, left=as_it_stands(left), rights=as_it_stands(rights))
+        case Struct():
+            return replace(written, **{field.name: kept(getattr(written, field.name)) for field in fields(written)})
+        case Mapping():
+            return {name: kept(each) for name, each in written.items()}
+        case tuple():
+            return tuple(map(kept, written))
+    return written
+
+
+def mathematics_in(written: Any) -> Iterator[Math]:
+    """The mathematics in blocks, in texts and in all that holds some."""
+    match written:
+        case str():
+            yield from (read_mathematics(piece) for piece in _PIECES.findall(written) if piece)
+        case Equation(left, rights):
+            yield from (left, *rights)
+        case Struct():
+            yield from mathematics_in(tuple(getattr(written, field.name) for field in fields(written)))
+        case Mapping():
+            yield from mathematics_in(tuple(written.values()))
+        case tuple():
+            for each in written:
+                yield from mathematics_in(each)
 
 
 def joined(items: list[str]) -> str:

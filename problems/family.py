@@ -1,30 +1,33 @@
 """A family of problems, a problem drawn from it, and the base of all givens."""
 
 import importlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache, cached_property
 from types import ModuleType, NoneType
-from typing import Any, Self, get_args
+from typing import Any, ClassVar, Self, TypeVar, cast, get_args
 
 from msgspec import Struct
-from msgspec.structs import force_setattr
+from msgspec.structs import force_setattr, replace
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import to_jsonable_python
 
 from rldrill.problems.angles import Angle
 from rldrill.problems.complaints import sentence
-from rldrill.problems.document import Document
+from rldrill.problems.document import Document, kept, mathematics_in
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, FileError
-from rldrill.problems.exact import Logarithm, Parameter
+from rldrill.problems.exact import PARAMETERS, Logarithm, Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.habits import settled, written
 from rldrill.problems.identity import LEVELS, Identity
-from rldrill.problems.parts import Part, lettered
+from rldrill.problems.notations import AS_IT_STANDS, LECTURE, Writing, in_use, takes, used
+from rldrill.problems.parts import Numbers, Part, Policy, Values, lettered
 from rldrill.problems.readings import Note
+
+Written = TypeVar("Written")
 
 #: Whether givens are made by a draw of ours, which makes only what is valid.
 _TRUSTED: ContextVar[bool] = ContextVar("trusted", default=False)
@@ -50,6 +53,8 @@ class Givens(BaseModel):
     """What a problem gives: typed, frozen, exact, validated; the same form is read from problem files."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, defer_build=True)
+    #: Letters that notations have, by which problems of this kind call something of their own.
+    OWN: ClassVar[str] = ""
 
     def __init__(self, **fields: Any) -> None:
         if not _TRUSTED.get():
@@ -79,6 +84,10 @@ class Givens(BaseModel):
         found: dict[str, None] = {}
         _collect_parameters(_inside(self), found)
         return tuple(found)
+
+    def own_letters(self) -> Set[str]:
+        """The letters that no notation may take from the problem: those it leaves open, and its ``OWN``."""
+        return {*self.OWN, *(PARAMETERS[name] for name in self.left_open)}
 
     def terminal_states(self) -> tuple[str, ...]:
         """The terminal states anywhere in the givens."""
@@ -150,6 +159,16 @@ class Question(Struct, frozen=True):
 
     def __post_init__(self) -> None:
         force_setattr(self, "parts", lettered(self.parts))
+
+
+def _named(part: Part) -> Part:
+    """A part, and what its answers are called as the lecture writes it."""
+    kind = part.kind
+    if isinstance(kind, Numbers):
+        kind = replace(kind, entries=tuple(f"{AS_IT_STANDS}{entry}" for entry in kind.entries))
+    elif isinstance(kind, Values | Policy) and kind.of:
+        kind = replace(kind, of=f"{AS_IT_STANDS}{kind.of}")
+    return replace(part, kind=kind)
 
 
 class Family(Struct, frozen=True, dict=True):
@@ -289,10 +308,47 @@ class Problem(Struct, frozen=True, dict=True):
     given: Givens
     identity: Identity | None = None
 
-    @cached_property
+    @property
     def question(self) -> Question:
         """The situation and the parts, as they are printed."""
-        return self.family.question(self.given)
+        writing = in_use()
+        if writing not in self._questions:
+            self._questions[writing] = self._kept() if self.keeps_letters else self.family.question(self.given)
+        return self._questions[writing]
+
+    @cached_property
+    def _questions(self) -> dict[Writing, Question]:
+        """The question in every way in which it was asked for: equations are rewritten when they are made."""
+        return {}
+
+    def _plain(self) -> Question:
+        with used(LECTURE):
+            return self.question
+
+    def _kept(self) -> Question:
+        question = kept(self._plain())
+        return replace(question, parts=tuple(map(_named, question.parts)))
+
+    @property
+    def keeps_letters(self) -> bool:
+        """Whether the notation in use has letters of the problem's own, so that the problem stays in the lecture's."""
+        notation = in_use().notation
+        if notation not in self._keeps:
+            self._keeps[notation] = takes(self.given.own_letters(), mathematics_in(self._plain()))
+        return self._keeps[notation]
+
+    @cached_property
+    def _keeps(self) -> dict[str, bool]:
+        """The same of every notation that was in use."""
+        return {LECTURE: False}
+
+    def written(self, make: Callable[[], Written]) -> Written:
+        """What is made, from blocks and texts of the problem, in the notation that the problem is written in."""
+        if not self.keeps_letters:
+            return make()
+        with used(LECTURE, in_use().mark):
+            made = make()
+        return cast(Written, kept(made))
 
     @property
     def parts(self) -> tuple[Part, ...]:

@@ -8,6 +8,7 @@ from pydantic import Field
 from rldrill.problems.document import Table
 from rldrill.problems.exact import Exact, Weight, WeightField, shown
 from rldrill.problems.models import Name, Named
+from rldrill.problems.names import once, read_name
 
 #: So many features are written out for everything that has them.
 MOST_FEATURES = 100
@@ -15,9 +16,9 @@ FeatureVector = Annotated[tuple[Exact, ...], Field(max_length=MOST_FEATURES)]
 #: Of so many actions a softmax is written out; every probability of it has a sum over all of them.
 MOST_ACTIONS = 100
 #: A preference for every action of a state.
-ActionPreferences = Annotated[dict[Name, WeightField], Field(max_length=MOST_ACTIONS)]
+ActionPreferences = Annotated[dict[Name, WeightField], Field(max_length=MOST_ACTIONS), once(read_name)]
 #: The features of every action in one state, and in some states.
-OneStateFeatures = Annotated[dict[Name, FeatureVector], Field(max_length=MOST_ACTIONS)]
+OneStateFeatures = Annotated[dict[Name, FeatureVector], Field(max_length=MOST_ACTIONS), once(read_name)]
 ActionFeatures = Named[OneStateFeatures]
 
 

@@ -1,7 +1,7 @@
 """Linear systems with quadratic rewards, as problems give them."""
 
 from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple, Self, TypeVar
+from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -59,6 +59,8 @@ NOTATIONS: dict[Convention, Notation] = {
 
 class Discounted(Givens):
     """What a quadratic cost may have beside Q and R."""
+
+    OWN: ClassVar[str] = "A"  # the matrix
 
     gamma: Probability = Field(
         default=Fraction(1),

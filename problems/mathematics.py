@@ -25,6 +25,10 @@ class Glyph(Struct, frozen=True):
     style: Style
 
 
+class Name(Glyph, frozen=True):
+    """The same, but no letter of a notation: the name of a state or an action, or what is a problem's own."""
+
+
 class Row(Struct, frozen=True):
     """Things side by side."""
 
@@ -139,10 +143,15 @@ def listed(items: Iterable[Math], separator: str = ",") -> Math:
     return row(*result)
 
 
-def name(text: str) -> Glyph:
+def name(text: str) -> Name:
     """The name of a state or an action: a letter (with digits, primes) is a variable, what begins with a capital or is
-    longer is a word, as it is in tables and sentences."""
-    return word(text) if re.match(r"[A-Z]", text) else letters(text)
+    longer is a word, as it is in tables and sentences. No notation writes it otherwise."""
+    return Name(text, "word" if re.match(r"[A-Z]", text) else letters(text).style)
+
+
+def own(text: str) -> Name:
+    """A letter that is no letter of a notation, such as one that a problem leaves open."""
+    return Name(text, "variable")
 
 
 def letters(text: str) -> Glyph:

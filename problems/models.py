@@ -32,7 +32,7 @@ from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 from rldrill.problems.model_forms import SCHEMAS, read_dynamics, read_form
-from rldrill.problems.names import read_name
+from rldrill.problems.names import once, read_name
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
 from rldrill.problems.policy_forms import by_states
@@ -54,9 +54,9 @@ Entry = TypeVar("Entry")
 #: The name of a state, an action or a hypothesis.
 Name = Annotated[str, BeforeValidator(read_name), WithJsonSchema({"type": ["string", "integer"], "title": "a name"})]
 #: A table with an entry for every name of some states, actions or hypotheses.
-Named = Annotated[dict[Name, Entry], Field(max_length=MOST_STATES)]
+Named = Annotated[dict[Name, Entry], Field(max_length=MOST_STATES), once(read_name)]
 #: The same for what the world may be like, of which there may be more: a sum over all of them takes a second.
-Hypotheses = Annotated[dict[Name, Entry], Field(max_length=5000)]
+Hypotheses = Annotated[dict[Name, Entry], Field(max_length=5000), once(read_name)]
 #: Names of some states, actions or hypotheses.
 Names = Annotated[tuple[Name, ...], Field(max_length=MOST_STATES)]
 #: What was seen at every step of a run.

@@ -2,7 +2,12 @@
 
 import re
 import unicodedata
+from collections import Counter
+from collections.abc import Callable, Mapping
 from functools import lru_cache
+from typing import Any
+
+from pydantic import WrapValidator
 
 _LONGEST = 40
 _ARROWS = "←↑→↓↔↕↖↗↘↙"
@@ -12,6 +17,19 @@ _ALLOWED = (
     "a name begins with a letter, a digit, a sign, an arrow or a bracket, and holds letters, digits, blanks, arrows "
     "and . ' + - _ alone, brackets in pairs, and commas between numbers"
 )
+
+
+def once(read: Callable[[Any], object]) -> WrapValidator:
+    """What demands of a table that none of its names is there twice, in two spellings, by what reads one."""
+
+    def check(value: Any, handler: Callable[[Any], Any]) -> Any:
+        table = handler(value)
+        if isinstance(value, Mapping) and len(table) < len(value):
+            ((name, _),) = Counter(map(read, value)).most_common(1)
+            raise ValueError(f"{name!r} is given twice, in two spellings; leave one out")
+        return table
+
+    return WrapValidator(check)
 
 
 def read_name(value: object) -> object:

@@ -2,10 +2,10 @@
 
 import re
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,12 +14,14 @@ from msgspec import Struct
 from msgspec.structs import fields, replace
 
 from rldrill.problems.errors import UsageError
-from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Row, Script, mathematics, row
+from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Name, Row, Script, mathematics, own, row, signs
 
 #: The notation that everything is written in unless another one is asked for.
 LECTURE = "lecture"
 _ANYTHING = frozenset("①②③")
 _NUMBERS = frozenset("ⓣⓝ")
+#: What mathematics begins with that stays as the lecture writes it.
+AS_IT_STANDS = "!"
 _TIMES = re.compile(r"t|k|T|[0-9]+")
 _INDEXED = re.compile(r"(?P<stem>[^\W\d_])(?P<index>[₀-₉]*[′']*)")
 
@@ -45,7 +47,7 @@ PLAIN = Writing()
 _in_use: ContextVar[Writing] = ContextVar("writing", default=PLAIN)
 
 
-class Notation(Struct, frozen=True):
+class Notation(Struct, frozen=True, dict=True):
     """One notation.
 
     Args:
@@ -57,6 +59,20 @@ class Notation(Struct, frozen=True):
     about: str
     lines: tuple[tuple[Math, Math], ...]
     letters: Mapping[str, str]
+
+    @cached_property
+    def takes(self) -> Set[str]:
+        """The letters that are others in it."""
+        return {*self.letters} | _letters(left for left, _ in self.lines)
+
+    @cached_property
+    def gives(self) -> Set[str]:
+        """The letters that it has for them."""
+        return {*self.letters.values()} | _letters(right for _, right in self.lines)
+
+
+def _letters(written: Iterable[Math]) -> set[str]:
+    return {match["stem"] for math in written for sign in signs(math) if (match := _INDEXED.fullmatch(sign))}
 
 
 @cache
@@ -111,6 +127,38 @@ def known(name: str) -> str:
     if wanted != LECTURE and wanted not in notations():
         raise UsageError(f"There is no notation {name[:40]!r}; there are {LECTURE}, {', '.join(notations())}.")
     return wanted
+
+
+def takes(letters: Set[str], written: Iterable[Math]) -> bool:
+    """Whether the notation in use takes one of these letters, or has it for something else that is written."""
+    name = _in_use.get().notation
+    if name == LECTURE or letters.isdisjoint(notations()[name].takes | notations()[name].gives):
+        return False
+    given = (_letters((_translated(name, math, False),)) - _letters((math,)) for math in written)
+    return not letters.isdisjoint(notations()[name].takes) or any(not letters.isdisjoint(each) for each in given)
+
+
+def read_mathematics(text: str) -> Math:
+    """Mathematics of a text; with ``!`` before it, it stays as the lecture writes it."""
+    found = mathematics(text.removeprefix(AS_IT_STANDS))
+    return as_it_stands(found) if text.startswith(AS_IT_STANDS) else found
+
+
+def as_it_stands(math: Any) -> Any:
+    """Mathematics without the letters of a notation: every one that some notation takes is the problem's own."""
+    if isinstance(math, Glyph):
+        match = _INDEXED.fullmatch(math.text) if math.style == "variable" else None
+        return own(math.text) if match and match["stem"] in _taken() else math
+    if isinstance(math, tuple):
+        return tuple(map(as_it_stands, math))
+    if not isinstance(math, Struct):
+        return math
+    return replace(math, **{field.name: as_it_stands(getattr(math, field.name)) for field in fields(math)})
+
+
+@cache
+def _taken() -> Set[str]:
+    return {letter for notation in notations().values() for letter in notation.takes}
 
 
 def in_notation(math: Math) -> Math:
@@ -203,7 +251,7 @@ def _inside(notation: Notation, value: Any) -> Any:
 
 
 def _relettered(notation: Notation, glyph: Glyph) -> Glyph:
-    match = _INDEXED.fullmatch(glyph.text) if glyph.style == "variable" else None
+    match = _INDEXED.fullmatch(glyph.text) if glyph.style == "variable" and not isinstance(glyph, Name) else None
     if match is None or match["stem"] not in notation.letters:
         return glyph
     return Glyph(notation.letters[match["stem"]] + match["index"], "variable")

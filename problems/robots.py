@@ -2,11 +2,11 @@
 
 import cmath
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from functools import cache
 from itertools import zip_longest
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from msgspec import Struct, field
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
@@ -22,12 +22,16 @@ from rldrill.problems.expressions import Expression, letter, letters, turning, w
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.mathematics import Math, mathematics, row, variable
+from rldrill.problems.names import once
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.pictures import Arm, Pendulum, Picture
 
+Entry = TypeVar("Entry")
 Letter = Annotated[
     str, AfterValidator(letter), WithJsonSchema({"type": "string", "title": "a letter such as θ or x_1"})
 ]
+#: A table with an entry for every letter.
+Lettered = Annotated[dict[Letter, Entry], once(letter)]
 
 
 def _positive(step: Fraction) -> Fraction:
@@ -54,22 +58,22 @@ class System(Givens):
     angle θ from hanging down, an arm by the angles θ_1 and θ_2 of its links and their lengths l_1 and l_2.
     """
 
-    dynamics: dict[Letter, Expression] = Field(
+    OWN: ClassVar[str] = "A"  # the matrix
+
+    dynamics: Lettered[Expression] = Field(
         min_length=1, max_length=6, description="For every letter of the state its rate of change."
     )
-    where: dict[Letter, Expression] = Field(
+    where: Lettered[Expression] = Field(
         default_factory=dict,
         max_length=8,
         description="Parts of these expressions by their letters, each in terms of those before it.",
         examples=[{"D": "m_c + m_p sin(θ)^2"}],
     )
-    constants: dict[Letter, Exact] = Field(
-        max_length=20, default_factory=dict, description="The value of every constant."
-    )
-    state: dict[Letter, AngleField] = Field(
+    constants: Lettered[Exact] = Field(max_length=20, default_factory=dict, description="The value of every constant.")
+    state: Lettered[AngleField] = Field(
         max_length=6, description="The value of every letter of the state at the operating point."
     )
-    action: dict[Letter, AngleField] = Field(
+    action: Lettered[AngleField] = Field(
         min_length=1, max_length=4, description="The value of every letter of the action at the operating point."
     )
     step: Annotated[Exact, AfterValidator(_positive)] | None = Field(
@@ -110,6 +114,11 @@ class System(Givens):
         if self.picture and (missing := {*_SEEN[self.picture]} - {*self.state, *self.constants}):
             raise ValueError(f"picture: there is no {min(missing)}, which the picture of {self.picture!r} shows")
         return self
+
+    def own_letters(self) -> Set[str]:
+        """The letters that it has for states, actions, constants and parts, besides those left open."""
+        named = (*self.state, *self.action, *self.constants, *self.where)
+        return super().own_letters() | {name[0] for name in named}
 
     @property
     def held(self) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from threading import Event, RLock, Thread
 from typing import Any
 
@@ -210,8 +211,8 @@ class Diagnosing:
         pairs = zip(found.causes, found.shares, strict=True)
         if sum(share for cause, share in pairs if cause.weight >= SURE_ENOUGH) < _SURE:
             return verdict
-        said = _told(found, self.search({}).applications).sentence
-        return replace(verdict, outcome=Outcome.WRONG, says=said)
+        said = self.solution.problem.written(lambda: _told(found, self.search({}).applications))
+        return replace(verdict, outcome=Outcome.WRONG, says=said.sentence)
 
     def _is_large(self) -> bool:
         """Whether the working is larger than any that is drawn; of a system of equations the square counts."""
@@ -234,7 +235,7 @@ class Diagnosing:
         Of a working larger than any that is drawn only those that stated mistakes give: to find all takes too long.
         """
         with self._one:
-            return self._wrong_answers(label, number)
+            return self.solution.problem.written(lambda: self._wrong_answers(label, number))
 
     def _wrong_answers(self, label: str, number: int) -> tuple["WrongAnswer", ...]:
         search, outcomes = self.search({}), self.outcomes(label, {})
@@ -295,7 +296,8 @@ class Diagnosing:
             with self._one:
                 found = explained(self.outcomes(label, carried), typed, clock, settled)
             if found.causes:
-                return _told(found, self.search(carried).applications)
+                applications = self.search(carried).applications
+                return self.solution.problem.written(partial(_told, found, applications))
         return Diagnosis("unexplained", verdict.says)
 
 

@@ -70,11 +70,19 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
         """The problem's ID; None for a problem from outside."""
         return None if self.problem.identity is None else str(self.problem.identity)
 
-    @cached_property
+    @property
     def parts(self) -> tuple[Part, ...]:
         """What is asked, with its points."""
-        worth = self.worth or points(self.solution)
-        return tuple(replace(part, points=worth[part.label]) for part in self.problem.parts)
+        spared = self.problem.keeps_letters
+        if spared not in self._parts:
+            worth = self.worth or points(self.solution)
+            self._parts[spared] = tuple(replace(part, points=worth[part.label]) for part in self.problem.parts)
+        return self._parts[spared]
+
+    @cached_property
+    def _parts(self) -> dict[bool, tuple[Part, ...]]:
+        """The parts as the notation in use writes them, and as they are kept from it."""
+        return {}
 
     def __eq__(self, other: object) -> bool:
         """Whether the problem is the same, and what its parts are worth; its solution follows from it."""
@@ -234,7 +242,7 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
         if not isinstance(lines, Iterable):
             raise UsageError("The working is no text and no list of lines; give one of these.")
         texts = lines.splitlines() if isinstance(lines, str) else [str(line) for line in lines]
-        return followed(self.diagnosing.search({}), texts)
+        return self.problem.written(lambda: followed(self.diagnosing.search({}), texts))
 
     def _part(self, label: str) -> Part:
         for part in self.parts:
@@ -258,7 +266,11 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
                 block for each in self.parts for block in (Heading(f"({each.label})"), *self.working(each.label))
             )
         lines = self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)
-        return Page(_written(abridged(lines), set()))
+        return Page(self._made(_written(abridged(lines), set())))
+
+    def _made(self, blocks: Iterable[Block]) -> tuple[Block, ...]:
+        """Blocks that are made now, in the notation that the problem is written in."""
+        return self.problem.written(lambda: tuple(blocks))
 
     def scheme(self, part: str) -> tuple[tuple[tuple[Block, ...], int], ...]:
         """The working of a part in pieces, each with the points that are earned when it is reached.
@@ -276,7 +288,7 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
         result: list[tuple[tuple[Block, ...], int]] = []
         waiting: tuple[Block, ...] = ()
         for index, time in enumerate(times):
-            waiting += tuple(_written([lines[index]], stated))
+            waiting += self._made(_written([lines[index]], stated))
             spent += time
             reached = int(worth * spent / whole) if whole else 0
             if reached > earned and not isinstance(next(iter(lines[index + 1 :]), None), _SOLVED_FURTHER):
@@ -313,7 +325,7 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
                     Paragraph("Rule out one answer after the other."),
                 )
             )
-        return Page(block for formula in formulas for block in (formula.equation(), Paragraph(formula.hint)))
+        return Page(self._made(b for formula in formulas for b in (formula.equation(), Paragraph(formula.hint))))
 
     def data(self, *, answers: bool = True, mistakes: int = 0, latex: bool = False) -> dict[str, Any]:
         """The problem as JSON has it.
@@ -344,7 +356,8 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
                 ]
             result["parts"].append(entry)
         if answers:
-            result["steps"] = [_step(line) for line in abridged(self.solution.lines) if isinstance(line, Step)]
+            steps = [line for line in abridged(self.solution.lines) if isinstance(line, Step)]
+            result["steps"] = self.problem.written(lambda: [_step(step) for step in steps])
         return result
 
 

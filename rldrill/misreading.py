@@ -16,4 +16,6 @@ def misread_lines(solution: Solution, mistake: Misconception) -> tuple[Equation,
     """The formula as the mistake reads it, and as it is."""
     if (formula := solution.misread(mistake)) is None:
         return None
-    return formula.equation(formula.misread[mistake]), formula.equation(formula.right)
+    return solution.problem.written(
+        lambda: (formula.equation(formula.misread[mistake]), formula.equation(formula.right))
+    )

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from functools import cache
 from itertools import product
 from string import ascii_uppercase
-from typing import Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -15,6 +15,7 @@ from rldrill.problems.exact import Exact, needed, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
+from rldrill.problems.names import once, read_name
 from rldrill.problems.parts import Choice, Number, Part, Values
 
 TITLE = "Information criterion (BIC or AIC)"
@@ -54,8 +55,8 @@ class Fitted(Givens):
 class Data(Givens):
     """How often each coin fell on its sides, heads and tails, and which two models are compared."""
 
-    tosses: dict[Name, tuple[int, int]] = Field(
-        min_length=1, max_length=20, description="For every coin how often it fell heads and tails."
+    tosses: Annotated[dict[Name, tuple[int, int]], Field(min_length=1, max_length=20), once(read_name)] = Field(
+        description="For every coin how often it fell heads and tails."
     )
     models: tuple[Literal["fair", "shared", "own"], Literal["fair", "shared", "own"]] = Field(
         description="The two models that are compared: all coins fair, one shared probability, or each its own."
@@ -79,8 +80,8 @@ class Given(Givens):
         exclude_if=lambda criterion: criterion == "BIC",
         description="Which criterion is asked for, Bayes' or Akaike's; the latter does not need n.",
     )
-    fitted: dict[Name, Fitted] | None = Field(
-        default=None, min_length=2, max_length=10, description="The fitted models; with them goes n."
+    fitted: Annotated[dict[Name, Fitted], Field(min_length=2, max_length=10), once(read_name)] | None = Field(
+        default=None, description="The fitted models; with them goes n."
     )
     n: int | None = Field(default=None, ge=2, le=10**6, description="The number of data; only with fitted.")
     border: Literal["more", "fewer"] | None = Field(

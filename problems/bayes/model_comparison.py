@@ -1,7 +1,7 @@
 """The evidences of models of a coin, their posterior odds, and which of them is the most probable."""
 
 from functools import cache, lru_cache
-from typing import Self
+from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
 
@@ -12,6 +12,7 @@ from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import AskedFor, Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
+from rldrill.problems.names import once, read_name
 from rldrill.problems.parts import Number, Part, Values, YesNo
 
 TITLE = "Model comparison"
@@ -82,7 +83,11 @@ class Given(AskedFor):
     With ``odds`` the prior is left open, and found for two models from these posterior odds.
     """
 
-    models: dict[Name, CoinModel] = Field(min_length=2, max_length=10, description="The models by their names.")
+    OWN: ClassVar[str] = "a"
+
+    models: Annotated[dict[Name, CoinModel], Field(min_length=2, max_length=10), once(read_name)] = Field(
+        description="The models by their names."
+    )
     prior: OpenDistributionField = Field(description="The probability of every model beforehand.")
     heads: int = Field(ge=0, le=500, description="How many heads there were.")
     tails: int = Field(ge=0, le=500, description="How many tails there were.")

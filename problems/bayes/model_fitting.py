@@ -1,6 +1,6 @@
 """The parameters of a coin, a normal distribution or a line, by maximum likelihood and maximum a posteriori."""
 
-from typing import Self
+from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
@@ -92,6 +92,8 @@ class Line(Givens):
 
 class Given(AskedFor):
     """One of the three: tosses of a coin, a sample, or points for a line."""
+
+    OWN: ClassVar[str] = "asx"
 
     coin: Coin | None = Field(default=None, description="Tosses of a coin.")
     sample: Sample | None = Field(default=None, description="Measurements of one quantity; instead of coin.")

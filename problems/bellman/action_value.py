@@ -1,5 +1,6 @@
 """The values of actions in one state under a policy, from given values of the states."""
 
+from collections.abc import Set
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -40,6 +41,10 @@ class Given(Lookahead):
         if self.chance and (self.find or self.unknown or self.state not in self.values):
             raise ValueError(f"chance: it follows from the value of {self.state!r}; give it, and leave nothing open")
         return self
+
+    def own_letters(self) -> Set[str]:
+        """Besides those left open the letter p of what is asked for."""
+        return super().own_letters() | ({"p"} if self.chance else set())
 
 
 def draw(level: int, rng: Draws) -> Given:

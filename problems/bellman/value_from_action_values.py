@@ -1,6 +1,6 @@
 """The value of states from given action values: under a policy, and the optimal one."""
 
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -9,7 +9,8 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Named, PolicyField, check_chances, check_keys, policy_table, values_table
+from rldrill.problems.models import Name, Named, PolicyField, check_chances, check_keys, policy_table, values_table
+from rldrill.problems.names import once, read_name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import action_values_table
@@ -28,8 +29,8 @@ class Given(Givens):
 
     values: Named[Named[Open]] = Field(min_length=1, description="For every state the values of its actions.")
     policy: PolicyField = Field(description="The policy in these states.")
-    known: Named[Exact] | None = Field(
-        default=None, min_length=1, max_length=1, description="A state's value under the policy, by which to find it."
+    known: Annotated[dict[Name, Exact], Field(min_length=1, max_length=1), once(read_name)] | None = Field(
+        default=None, description="A state's value under the policy, by which to find it."
     )
     equal: bool = Field(
         default=False,

@@ -4,7 +4,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -41,6 +41,8 @@ class Given(Givens):
     frame its coordinates in every frame before it; of one that is given in the base's (``back``) those in every frame
     after it.
     """
+
+    OWN: ClassVar[str] = "a"
 
     links: tuple[Link, ...] = Field(min_length=1, max_length=7, description="The links from the base outwards.")
     name: str = Field(

@@ -1,7 +1,7 @@
 """The inner and the outer step of MAML on quadratic losses; or the parameter or step size with a given outcome."""
 
 from collections.abc import Iterator
-from typing import NamedTuple, Self
+from typing import ClassVar, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
@@ -31,6 +31,8 @@ class Given(Givens):
     Without θ and β that θ is asked for which the outer step does not change; without β alone, that β with which the
     outer step leads to ``after``.
     """
+
+    OWN: ClassVar[str] = "L"
 
     theta: Exact | None = Field(default=None, description="The shared parameter; without it, it is asked for.")
     tasks: tuple[Task, ...] = Field(

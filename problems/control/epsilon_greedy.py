@@ -1,7 +1,7 @@
 """The probabilities with which an ε-greedy policy takes its actions, also where best actions are tied."""
 
 import re
-from typing import NamedTuple, Self
+from typing import Annotated, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
@@ -11,6 +11,7 @@ from rldrill.problems.exact import Exact, OpenShare, Parameter, Probability, sho
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
+from rldrill.problems.names import once, read_name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import exploration, in_open, not_known
 from rldrill.problems.runs import action_values_table
@@ -34,7 +35,9 @@ class Given(Givens):
     """The action values of one state, ε, and what is asked: also the state's value, or ε itself from what it does."""
 
     state: Name = Field(default="s", description="The name of the state.")
-    values: dict[Name, Exact] = Field(min_length=2, max_length=50, description="The value of every action.")
+    values: Annotated[dict[Name, Exact], Field(min_length=2, max_length=50), once(read_name)] = Field(
+        description="The value of every action."
+    )
     epsilon: OpenShare = Field(description="The probability to explore.")
     valued: bool = Field(
         default=False, description="Whether the value of the state under the policy is asked for, too."

@@ -1,5 +1,6 @@
 """The optimal policy of a model whose optimal state values are known."""
 
+from collections.abc import Set
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -44,6 +45,10 @@ class Given(Givens):
         if not self.parameters():
             check_optimal_values(self._whole(), self.mdp, self.gamma)
         return self
+
+    def own_letters(self) -> Set[str]:
+        """Besides those left open the letter x that stands for the missing value."""
+        return super().own_letters() | ({"x"} if self.missing is not None else set())
 
     def _whole(self) -> dict[str, Fraction]:
         """All values, with the one that follows from the others: that of an action which may lead back, x = a + γpx."""

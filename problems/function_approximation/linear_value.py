@@ -1,6 +1,6 @@
 """Action values that are linear in features, with one block of weights for every action; or where two are equal."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -104,6 +104,10 @@ class Given(AskedFor):
     def between(self) -> bool:
         """Whether a state between two centres is to be found."""
         return self.bumps is not None and self.bumps.position is None
+
+    def own_letters(self) -> Set[str]:
+        """Besides those left open the letter x of what is asked for."""
+        return super().own_letters() | ({"x"} if self.between else set())
 
     @property
     def raised(self) -> str | None:

@@ -1,7 +1,7 @@
 """Piecewise linear basis functions: the features of a state for several centres; or width or state from some."""
 
 from math import ceil, isqrt
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -25,6 +25,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction, fraction_of
+from rldrill.problems.names import once
 from rldrill.problems.parts import Number, Part
 
 TITLE = "Piecewise linear RBF"
@@ -41,7 +42,7 @@ class Given(Centred):
     width: Exact | None = Field(
         default=None, description="The distance from its centre at which a feature reaches 0, above 0."
     )
-    known: dict[int, Exact] = Field(
+    known: Annotated[dict[int, Exact], once(int)] = Field(
         default={},
         max_length=20,
         exclude_if=lambda known: not known,

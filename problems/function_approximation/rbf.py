@@ -1,6 +1,6 @@
 """Radial basis functions: the features of a state for several centres; or the width or the state from some of them."""
 
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -23,6 +23,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, WidthField, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
+from rldrill.problems.names import once
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import in_open
 
@@ -38,7 +39,7 @@ class Given(Centred):
     """
 
     sigma: WidthField | None = Field(default=None, description="The width of all features, above 0.")
-    logarithms: dict[int, Exact] = Field(
+    logarithms: Annotated[dict[int, Exact], once(int)] = Field(
         default={},
         max_length=20,
         exclude_if=lambda known: not known,

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from math import gcd, isqrt
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -14,6 +14,7 @@ from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
+from rldrill.problems.names import once, read_name
 from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo, label
 
 TITLE = "Apprenticeship learning"
@@ -35,10 +36,8 @@ class Given(Givens):
     tolerance: Exact | None = Field(
         default=None, gt=0, description="The distance at which the algorithm stops; asks whether it does."
     )
-    candidates: dict[Name, FeatureVector] | None = Field(
+    candidates: Annotated[dict[Name, FeatureVector], Field(min_length=2, max_length=8), once(read_name)] | None = Field(
         default=None,
-        min_length=2,
-        max_length=8,
         description="Policies of which the best for the last weights comes next; asks for it, and projects.",
     )
     projected: bool = Field(

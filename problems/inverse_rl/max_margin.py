@@ -1,7 +1,7 @@
 """Which max-margin constraints hold for given weights, and the smallest slack with which all do."""
 
 from string import digits
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -13,6 +13,7 @@ from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.features import MOST_FEATURES, FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
+from rldrill.problems.names import once, read_name
 from rldrill.problems.parts import Number, Numbers, Part, Values
 
 TITLE = "Max-margin constraints"
@@ -47,7 +48,9 @@ class Given(AskedFor):
         examples=[["x", 2]],
     )
     expert: FeatureVector = Field(description="The expert's feature expectations.")
-    policies: dict[Name, Rival] = Field(min_length=1, max_length=20, description="The other policies by their names.")
+    policies: Annotated[dict[Name, Rival], Field(min_length=1, max_length=20), once(read_name)] = Field(
+        description="The other policies by their names."
+    )
     slack: Exact = Field(
         default=Fraction(0),
         ge=0,

@@ -1,7 +1,7 @@
 """One backward step of differential dynamic programming: the quadratic Q, and the change of the action."""
 
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
@@ -9,11 +9,12 @@ from rldrill.problems.angles import Angle, AngleField, read_angle, text
 from rldrill.problems.document import Beside, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
-from rldrill.problems.expressions import Expression, letters
+from rldrill.problems.expressions import Expression, letter, letters
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, tabular
+from rldrill.problems.names import once
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import (
     Letter,
@@ -49,9 +50,8 @@ class Given(System):
     second_order: bool = Field(
         default=True, description="Whether the second derivatives of the dynamics count (DDP) or not (iLQR)."
     )
-    reached: dict[Letter, AngleField] | None = Field(
+    reached: Annotated[dict[Letter, AngleField], Field(max_length=6), once(letter)] | None = Field(
         default=None,
-        max_length=6,
         description="A state near the operating point, for which the action is asked for.",
         examples=[{"v": "3/2"}],
     )

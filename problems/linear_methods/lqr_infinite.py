@@ -72,11 +72,11 @@ class Given(AskedFor, Conventional):
             check_shape(name, matrix, rows, columns, where)
         check_weights("Q", self.Q, positive=False)
         check_weights("R", self.R, positive=False)
-        open_ = [entry for matrix in (self.Q, self.R) for line in matrix for entry in line if entry == _OPEN]
+        open_ = [each for matrix in (self.Q, self.R) for line in matrix for each in line if isinstance(each, Parameter)]
         if self.closed_loop is None and open_:
             raise ValueError("Q and R: a price may be left open only with a closed_loop from which it is found")
         if self.closed_loop is not None:
-            if len(open_) != 1 or n > 1 or m > 1 or self.N or not self.B[0][0]:
+            if open_ != [_OPEN] or n > 1 or m > 1 or self.N or not self.B[0][0]:
                 raise ValueError("closed_loop: it goes with a scalar system without N, in which Q or R is rho, B not 0")
             if abs(self.closed_loop) >= 1 or not self.closed_loop:
                 raise ValueError("closed_loop must be between -1 and 1, and not 0")

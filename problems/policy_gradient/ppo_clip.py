@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from itertools import combinations, product
-from typing import Self
+from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
@@ -65,6 +65,8 @@ class Given(Givens):
 
     Without ``epsilon`` it is asked for: that which gives the ``objective``, or that below which a gradient is cut off.
     """
+
+    OWN: ClassVar[str] = "ALu"
 
     samples: tuple[Sample, ...] = Field(min_length=1, max_length=20, description="The actions that were taken.")
     epsilon: Exact | None = Field(

@@ -17,8 +17,8 @@ from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
-#: (a) 3/4, perhaps in a list, bold, behind "the answer is", or in the tags that models put around an answer; "A." begins
-#: a list of other things as well, so a capital needs its bracket or the word.
+#: (a) 3/4, perhaps in a list, bold, behind "the answer is", or in the tags that models put around an answer; "A."
+#: begins a list of other things as well, so a capital needs its bracket or the word.
 _LINE = re.compile(
     r"^[^\S\n]*(?:<(?i:answer)>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?"
     r"(?i:(?:the[^\S\n]++)?(?:final[^\S\n]++)?answer(?:[^\S\n]++is)?[^\S\n]*+:?+(?:\*\*)?+[^\S\n]*+)?"

@@ -32,6 +32,10 @@ class Rung(Struct, frozen=True):
 
 def ladder(exercise: Exercise, label: str) -> list[Rung]:
     """The hints to a part, from the formula to the last line of its working."""
+    return list(exercise.problem.written(lambda: tuple(_ladder(exercise, label))))
+
+
+def _ladder(exercise: Exercise, label: str) -> list[Rung]:
     formulas = _formulas(exercise, label)
     stated = [formula.equation() for formula in formulas]
     rungs = [Rung("what it takes", tuple(stated) or (Paragraph(_NO_FORMULA),))]

@@ -13,11 +13,11 @@ from rldrill.problems.mathematics import (
     Fence,
     Math,
     listed,
-    mathematics,
     name,
     row,
     word,
 )
+from rldrill.problems.notations import AS_IT_STANDS, read_mathematics
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
@@ -163,7 +163,7 @@ class NumbersAnswer(Answer[parts.Numbers]):
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        entries, called = self.kind.entries, self.kind.called
+        entries, called = [entry.removeprefix(AS_IT_STANDS) for entry in self.kind.entries], self.kind.called
         read = read_vector(text, len(entries), allowed.parameters, entries, allowed.longest, called)
         return {name: reading for name, reading in self.cells(read).items() if reading is not None}
 
@@ -181,7 +181,8 @@ class NumbersAnswer(Answer[parts.Numbers]):
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         return [
-            (mathematics(entry), typeset_answer(number)) for entry, number in zip(self.kind.entries, value, strict=True)
+            (read_mathematics(entry), typeset_answer(number))
+            for entry, number in zip(self.kind.entries, value, strict=True)
         ]
 
     def how_to_type(self) -> str:
@@ -269,8 +270,8 @@ class ValuesAnswer(Answer[parts.Values]):
     def _left(self, key: parts.Key) -> Math:
         names = (key,) if isinstance(key, str) else key
         if "·" in self.kind.of:
-            return mathematics(self.kind.of.replace("·", ", ".join(f'"{each}"' for each in names)))
-        return row(mathematics(self.kind.of), Fence(listed(map(name, names))))
+            return read_mathematics(self.kind.of.replace("·", ", ".join(f'"{each}"' for each in names)))
+        return row(read_mathematics(self.kind.of), Fence(listed(map(name, names))))
 
     def how_to_type(self) -> str:
         return f"one value for each: {self._name(self.kind.keys[0])}: 3/4, …"
@@ -314,7 +315,7 @@ class PolicyAnswer(Answer[parts.Policy]):
         return [(self._left(state), name(" or ".join(value[state]))) for state in self.kind.actions]
 
     def _left(self, state: str) -> Math | None:
-        return row(mathematics(self.kind.of), Fence(name(state))) if self.kind.of else None
+        return row(read_mathematics(self.kind.of), Fence(name(state))) if self.kind.of else None
 
     def how_to_type(self) -> str:
         state, actions = next(iter(self.kind.actions.items()))

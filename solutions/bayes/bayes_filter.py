@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from rldrill.problems.bayes.bayes_filter import Event, Given
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
@@ -56,7 +57,7 @@ def _filter(
             settled = {name: share if name == state else ONE - share for name in states}
             work.say(f"After the first step $p({state}) = {told(share)}$, so that $p({other}) = {told(ONE - share)}$.")
         else:
-            work.say(f"With this ${given.left_open[0]}$ the first step is:")
+            work.say(f"With this ${shown(Parameter(given.left_open[0]))}$ the first step is:")
         start = knowns.settled(start, value)
         known |= {name: knowns.settled(known[name], value) for name in ("motion", "likelihood")}
     belief = start

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from rldrill.problems.bayes.bayes_predict import Given
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import exact, told
@@ -25,6 +25,7 @@ def solve(given: Given, work: Work) -> None:
     if given.outcome is not None:
         *earlier, last = actions[: given.after]
         state, letter = given.outcome.state, given.left_open[0]
+        q = shown(Parameter(letter))
         moved, before = belief, []
         for place, action in enumerate(earlier, 1):
             work.say(f"The action {action} gives:")
@@ -38,12 +39,12 @@ def solve(given: Given, work: Work) -> None:
         found = work.answer(work.equate(letter, there, exact(given.outcome.probability), share=True))
         belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
         for then in before:
-            work.say(f"With ${letter} = {told(found)}$ this is:")
+            work.say(f"With ${q} = {told(found)}$ this is:")
             belief = work.answer(
                 {state: put_in_found(work, PREDICT, letter, there, found, s1=state) for state, there in then.items()}
             )
         if len(actions) > given.after:
-            work.say(f"With this ${letter}$ the {'first' if given.after == 1 else 'next'} action gives:")
+            work.say(f"With this ${q}$ the {'first' if given.after == 1 else 'next'} action gives:")
             belief = _moved(work, last, belief, motion, label)
             work.say(f"The next action, {actions[given.after]}, gives:")
     first = 0 if given.outcome is None else given.after

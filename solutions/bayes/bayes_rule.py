@@ -3,7 +3,7 @@
 from typing import Any
 
 from rldrill.problems.bayes.bayes_rule import Given
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import ONE, Value, exact, told
@@ -59,7 +59,7 @@ def _first(given: Given, work: Work, letter: str, known: dict[str, Any]) -> dict
     """The belief after the first measurement; of two hypotheses it is known with the one probability."""
     hypotheses, outcome = known["hypotheses"], given.outcome
     if len(hypotheses) != 2 or outcome is None or outcome.state not in hypotheses:
-        work.say(f"With this ${letter}$ the first measurement gives:")
+        work.say(f"With this ${shown(Parameter(letter))}$ the first measurement gives:")
         return _posterior(work, known)
     share = exact(outcome.probability)
     belief = {name: share if name == outcome.state else ONE - share for name in hypotheses}

@@ -4,7 +4,7 @@ from typing import Any
 
 from flint import fmpq
 
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact, largest, sign
@@ -67,12 +67,13 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
         least[name] = work.equate(letter, worth[EXPERT], right)
     least = work.answer(least)
     enough = largest(tuple(least.values()))
-    each = ", ".join(f"{letter} ≥ {value}" for value in least.values())
+    open_ = shown(Parameter(letter))
+    each = ", ".join(f"{open_} ≥ {value}" for value in least.values())
     place = given.w.index(letter)
     more = ", ".join(f"{shown(given.expert[place])} > {shown(rival.mu[place])}" for rival in given.policies.values())
     work.say(
         f"The expert has more of feature ${place + 1}$ than every other policy, ${more}$, so each constraint is a "
-        f"lower bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$, so the smallest one "
+        f"lower bound on ${open_}$: ${each}$. All of them hold for ${open_} ≥ {enough}$, so the smallest one "
         f"is ${enough}$.".replace("-", "−")
     )
     work.answer(enough)

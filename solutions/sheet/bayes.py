@@ -6,7 +6,19 @@ from typing import Any
 from msgspec.structs import replace
 from sympy import Pow, Rational, evaluate, factorial, log, sqrt
 
-from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
+from rldrill.problems.mathematics import (
+    Accent,
+    Fence,
+    Math,
+    Script,
+    listed,
+    number,
+    own,
+    punctuation,
+    row,
+    variable,
+    word,
+)
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
@@ -74,7 +86,7 @@ first_model = letter("first_model", _below(variable("M"), "1"))
 second_model = letter("second_model", _below(variable("M"), "2"))
 heads = letter("heads", _below(variable("n"), "1"))
 tails = letter("tails", _below(variable("n"), "0"))
-beta_a = letter("beta_a", "a")
+beta_a = letter("beta_a", own("a"))
 beta_b = letter("beta_b", "b")
 coin = letter("coin", "c")
 Coins = letter("coins", "C")
@@ -95,7 +107,7 @@ x = quantity("x", lambda index: Script(variable("x"), index))
 mu_hat = letter("mu_hat", Accent(variable("μ"), "hat"))
 mu_map = letter("mu_map", Script(Accent(variable("μ"), "hat"), word("MAP")))
 sigma2_hat = letter("sigma2_hat", Script(Accent(variable("σ"), "hat"), above=number(2)))
-sample_variance = letter("sample_variance", Script(variable("s"), above=number(2)))
+sample_variance = letter("sample_variance", Script(own("s"), above=number(2)))
 sigma2 = letter("sigma2", Script(variable("σ"), above=number(2)))
 prior_mean = letter("prior_mean", _below(variable("μ"), "0"))
 prior_variance = letter("prior_variance", Script(variable("σ"), number(0), number(2)))

@@ -6,7 +6,7 @@ from functools import cache
 from msgspec.structs import replace
 from sympy import Add, Expr, Pow, Rational, cos, evaluate, sin
 
-from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, row, variable, word
+from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, own, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Blocks,
@@ -181,7 +181,7 @@ def _end(formula: Formula, left: Expr, start: tuple[Expr, ...], turn: Callable[[
 T_i = quantity("Ti", lambda below: Script(variable("T"), below), matrix=True)
 T_total = letter("Ttotal", "T", matrix=True)
 th, d, al = quantity("th", subscripted("θ")), quantity("d", subscripted("d")), quantity("al", subscripted("α"))
-a_link = quantity("alink", subscripted("a"))
+a_link = quantity("alink", subscripted(own("a")))
 rotation = quantity("rotation", subscripted("R"), matrix=True)
 origin, point = quantity("origin", subscripted("o"), matrix=True), quantity("point", subscripted("p"), matrix=True)
 before, after = letter("before", "T", matrix=True), letter("after", Script(variable("T"), variable("i")), matrix=True)
@@ -313,7 +313,7 @@ def _slope(of: Math) -> Math:
 
 
 def _loss(argument: Math, index: Math) -> Math:
-    return row(Script(variable("∇"), variable("θ")), Script(variable("L"), index), Fence(argument))
+    return row(Script(variable("∇"), variable("θ")), Script(own("L"), index), Fence(argument))
 
 
 theta0, beta = letter("theta0", "θ"), letter("beta", "β")
@@ -337,7 +337,7 @@ with evaluate(False):
         source="Finn, Abbeel & Levine 2017, section 2.2",
         hint="One gradient step on the task's own loss, from the shared θ.",
         also=(theta0 - alpha * inner_gradient(i),),
-        note="For losses $L_i(θ) = c_i/2 (θ − m_i)^2$.",
+        note="For losses $!L_i(θ) = c_i/2 (θ − m_i)^2$.",
         place=Place.BEYOND,
         misread={
             HALF_KEPT: theta0 - Rational(1, 2) * alpha * curvature(i) * (theta0 - optimum(i)),

@@ -15,6 +15,7 @@ from rldrill.problems.mathematics import (
     Math,
     Script,
     listed,
+    own,
     punctuation,
     row,
     variable,
@@ -106,8 +107,8 @@ new_chance = quantity("new_chance", lambda action, state: _chance("θ", action, 
 old_chance = quantity("old_chance", lambda action, state: _chance("old", action, state))
 unclipped = quantity("unclipped", subscripted("u"))
 clipped = quantity("clipped", subscripted("c"))
-L_t = quantity("L_t", subscripted("L"))
-L = letter("L")
+L_t = quantity("L_t", subscripted(own("L")))
+L = letter("L", own("L"))
 entropy = letter("entropy", "H")
 Samples = letter("samples", "B")
 

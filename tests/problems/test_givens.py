@@ -1,12 +1,15 @@
 """Givens from outside: whatever is wrong with them is one sentence that names the field."""
 
+import re
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import pytest
 from pydantic import ValidationError
 
 import rldrill
+from rldrill import problems
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
@@ -228,6 +231,39 @@ def test_spellings_of_a_letter_may_be_mixed() -> None:
     for key, used in (("lambda", "λ"), ("ϕ", "phi"), ("φ", "ϕ")):
         given = TANK | {"dynamics": {key: f"u - 3*{used}"}, "state": {used: 1}}
         assert str(rldrill.read({"family": "linearise", "given": given}).solve()["a"][0, 0]) == "-3"
+
+
+CAFE = "cafe\N{COMBINING ACUTE ACCENT}"
+SEEN = {"trajectory": {"states": [CAFE, "end"], "rewards": [4], "terminal": ["end"]}, "alpha": "1/2", "gamma": 1}
+COINS = {"prior": {"a": "1/2", "b": "1/2"}, "heads": 1, "tails": 1}
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "says"),
+    [
+        ("linearise", TANK | {"constants": {"theta_1": 1, "θ₁": 7}}, "given.constants: 'θ_1'"),
+        ("linearise", TANK | {"dynamics": {"x": "u - x", "x1": "x1", "x_1": "x"}}, "given.dynamics: 'x_1'"),
+        ("td-zero", SEEN | {"values": {"café": 4, CAFE: 100}}, "given.values: 'café'"),
+        ("epsilon-greedy", {"values": {"café": 4, CAFE: 1, "tea": 0}, "epsilon": "1/5"}, "given.values: 'café'"),
+        (
+            "model-comparison",
+            COINS | {"models": {"é": {"theta": "1/2"}, "e\u0301": {"theta": "1/3"}, "b": {"theta": 1}}},
+            "given.models: 'é'",
+        ),
+        ("rbf", {"position": 0, "centres": [0, 1], "logarithms": {"1": "-1/2", "01": "-1"}}, "given.logarithms: 1"),
+    ],
+)
+def test_no_name_is_given_twice_in_two_spellings(name: str, given: Any, says: str) -> None:
+    with pytest.raises(FileError) as error:
+        rldrill.read({"family": name, "given": given})
+    assert f"{says} is given twice, in two spellings; leave one out" in str(error.value)
+
+
+def test_every_table_is_read_so() -> None:
+    lines = [line for path in Path(problems.__file__).parent.rglob("*.py") for line in path.read_text().splitlines()]
+    tables = [line for line in lines if re.search(r"(?<!-> )\bdict\[(Name|Letter),", line)]
+    assert len(tables) > 10
+    assert [line for line in tables if "once(" not in line] == []
 
 
 def test_the_kinds_of_a_union_are_its_models() -> None:

@@ -8,6 +8,7 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Math,
+    Name,
     Root,
     Row,
     Script,
@@ -37,8 +38,8 @@ one, two = number(1), number(2)
         ("ab", word("ab")),
         ("xy\u0304", Accent(word("xy"), "bar")),
         ("a b", row(a, b)),
-        ('"a"', a),
-        ('"A"', word("A")),
+        ('"a"', Name("a", "variable")),
+        ('"A"', Name("A", "word")),
         ("A", variable("A")),
         ("√(a b)", Root(row(a, b))),
         ("√2", Root(two)),
@@ -46,7 +47,7 @@ one, two = number(1), number(2)
         ("∑_t a", row(Big("Σ", t), a)),
         ("dθ/dJ", row(variable("d"), variable("θ"), punctuation("/"), variable("d"), variable("J"))),
         ("dx", word("dx")),
-        ('"smoking hot"', word("smoking hot")),
+        ('"smoking hot"', Name("smoking hot", "word")),
         ("s'", variable("s′")),
         ("s₁", variable("s₁")),
         ("12", number(12)),
@@ -103,7 +104,7 @@ def test_lists_rows_names_and_numbers() -> None:
     assert listed([a, b], ";") == Row((a, punctuation(";"), b))
     assert listed([a]) == row(a) == a
     assert row(a, Row((b, s)), t) == Row((a, b, s, t))
-    assert [name(text) for text in ("s", "s₁", "s′", "ab", "1a", "s_1")] == [
-        a.__class__("s", "variable"), variable("s₁"), variable("s′"), word("ab"), word("1a"), word("s_1"),
-    ]  # fmt: skip
+    styles = {"s": "variable", "s₁": "variable", "s′": "variable", "ab": "word", "1a": "word", "s_1": "word"}
+    assert [name(text) for text in styles] == [Name(*each) for each in styles.items()]
+    assert name("s") != s  # which is a letter of the notation
     assert number("-3/4") == Row((operator("−"), Fraction(number(3), number(4))))

@@ -32,6 +32,10 @@ def text_in(notation: str, text: str) -> str:
         ("$Q^*(s, a)$", "q_*(s, a)"),  # section 3.6
         ("$P_{s s'}^a (R_{s s'}^a + γ V^π(s'))$", "p(s′|s, a)(r(s, a, s′) + γv_π(s′))"),  # equations 3.4 and 3.6
         ("$V(s_t)$", "V(Sₜ)"),  # equation 6.2
+        ("$R'_0 = r_1$", "G′₀ = R₁"),
+        ("$s_t^{(i)}$", "Sₜ⁽ⁱ⁾"),
+        ("$V̂^π(s_0)$", "v̂_π(S₀)"),
+        ("$!R_t = r_{t+1} + V^π(s_t)$", "Rₜ = rₜ₊₁ + V^π(sₜ)"),  # what is to stay
         ("$s_{t+1} = A_t s_t + B_t a_t$", "sₜ₊₁ = Aₜsₜ + Bₜaₜ"),  # a matrix stays one
         ("$a_t^⊤ R_t a_t$", "aₜᵀRₜaₜ"),
     ],
@@ -42,7 +46,12 @@ def test_sutton_and_barto(lecture: str, book: str) -> None:
 
 @pytest.mark.parametrize(
     ("lecture", "control"),
-    [("$s_{t+1} = A_t s_t + B_t a_t$", "xₜ₊₁ = Aₜxₜ + Bₜuₜ"), ("$a_t = −L_t s_t$", "uₜ = −Kₜxₜ"), ("$V(s')$", "V(x′)")],
+    [
+        ("$s_{t+1} = A_t s_t + B_t a_t$", "xₜ₊₁ = Aₜxₜ + Bₜuₜ"),
+        ("$a_t = −L_t s_t$", "uₜ = −Kₜxₜ"),
+        ("$V(s')$", "V(x′)"),
+        ("$!a_t = −L_t s̄$", "aₜ = −Lₜs̄"),
+    ],
 )
 def test_optimal_control(lecture: str, control: str) -> None:
     assert text_in("control", lecture) == control
@@ -100,6 +109,71 @@ def test_the_lectures_notation_is_untouched() -> None:
     with used("sutton-barto"):
         assert str(exercise.hint()) != before
     assert str(exercise.hint()) == before
+
+
+def written(exercise: rldrill.Exercise) -> str:
+    """Everything that is asked, hinted, worked out and answered."""
+    blocks = [*exercise.question()]
+    for part in exercise.parts:
+        asked = (Paragraph(part.ask), exercise.answer(part))
+        blocks += [*asked, *exercise.hint(part.label), *exercise.working(part.label)]
+    return "\n".join(map(unicode_text, blocks))
+
+
+ONE = {"states": ["s", "end"], "actions": ["a"], "rewards": [1], "terminal": ["end"]}
+TWO = {"states": ["a", "u", "end"], "rewards": [1, 2], "terminal": ["end"]}
+
+
+def test_the_names_of_states_and_actions_are_no_letters_of_a_notation() -> None:
+    given = {"trajectory": ONE, "values": {"s": {"a": 1, "u": 0}}, "alpha": "1/2", "gamma": 1}
+    with used("control"):
+        exercise = rldrill.read({"family": "q-learning", "given": given})
+        assert "Q(s, a)" in unicode_text(Paragraph(exercise.parts[0].ask))  # Q(x, u) is another action's
+        assert "Q(s, a) ← 1 + 1/2·(1 + 1·0 − 1)" in written(exercise)
+        given = {"trajectory": TWO, "values": {"a": 4, "u": 8}, "alpha": "1/2", "gamma": 1}
+        told = written(rldrill.read({"family": "td-zero", "given": given}))
+        assert "V(a) ← 4 + 1/2·(1 + 1·8 − 4)" in told
+        assert "V(u) ← 8 + 1/2·(2 + 1·0 − 8)" in told
+
+
+@pytest.mark.parametrize(
+    ("notation", "id", "kept", "never"),
+    [
+        ("control", "optimal-value/3/3", ["The reward x of fast", "V*(warm) = 4", "Q*(s, a)"], r"x′|\(x, u\)"),
+        ("control", "linear-value/3/1", ["its position, s = x", "Q̂(s, a) = θᵀf(s, a)"], r"φ\(x\)|x = x"),
+        ("control", "linearise/3/1", ["x is the position of the cart", "s = (x, θ, v, ω)ᵀ and a = u"], r"f\(x, u\)"),
+        ("control", "denavit-hartenberg/1/1", ["aᵢ", "Transₓ(aᵢ)"], "uᵢ"),
+        ("control", "ppo-clip/2/5", ["uₜ = ρₜAₜ", "is called Lₜ", "π_θ(aₜ|sₜ)", "Lₜ = min(uₜ, cₜ)"], "K|uₜ[|]"),
+        ("control", "maml-step/1/5", ["the loss L₁(θ)"], "K"),
+        ("control", "model-fitting/1/1", ["the prior Beta(a, b)"], r"Beta\(u"),
+        ("sutton-barto", "ppo-clip/1/3", ["Aₜ is the estimated advantage of the action aₜ"], "Sₜ"),
+        ("sutton-barto", "importance-sampling/3/3", ["p is left open", "v̂_π(medium)"], r"V|p\("),
+        ("sutton-barto", "lqr-backward/3/6", ["a₀ = 2/5", "Aₜ"], "A₀ = 2/5"),
+        ("sutton-barto", "action-value/2/2", ["p = π(fast|warm)", "Pₛₛ′ᵃ"], r"p\(s′"),
+    ],
+)
+def test_no_notation_takes_a_letter_of_the_problems_own(notation: str, id: str, kept: list[str], never: str) -> None:
+    with used(notation):
+        exercise = rldrill.load(id)
+        told = written(exercise)
+    assert not [each for each in kept if each not in told]
+    assert not re.search(never, told)
+
+
+def test_a_letter_left_open_is_typed_as_it_is_asked_for() -> None:
+    with used("control"):
+        exercise = rldrill.load("optimal-value/3/3")
+        # V*(warm) = 4 = −2 + 1/2·V*(cool), so V*(cool) = 12 = x + 1/2·4
+        assert "What is $!x$?" in exercise.parts[1].ask
+        assert exercise.check("x = 10", "b").accepted
+
+
+def test_a_question_that_was_seen_before_is_written_anew() -> None:
+    exercise = rldrill.load("lqr-backward/2/1")
+    assert "s₀ = 2" in written(exercise)
+    with used("control"):
+        assert "x₀ = 2" in written(exercise)
+        assert "s₀" not in written(exercise)
 
 
 def test_names_and_answers_stay() -> None:

@@ -201,6 +201,15 @@ def test_how_many_constraints_hold_is_said_in_words(slack: int, said: str) -> No
     assert f"So {said}." in str(exercise.working("b"))
 
 
+def test_a_weight_left_open_is_written_as_in_the_question() -> None:
+    # 6w + 2 ≥ 5w + 2 + 1 from w = 1 on, 6w + 2 ≥ 3w + 1 + 2 from w = 1/3 on.
+    rivals = {"one": {"mu": [5, 2], "margin": 1}, "two": {"mu": [3, 1], "margin": 2}}
+    given_ = {"w": ["rho", 1], "expert": [6, 2], "policies": rivals, "slack": 4}
+    told = " ".join(str(rldrill.read({"family": "max-margin", "given": given_}).working("b")).split())
+    assert "a lower bound on ρ: ρ ≥ 1, ρ ≥ 1/3. All of them hold for ρ ≥ 1" in told
+    assert "rho" not in told
+
+
 @pytest.mark.parametrize("level", [1, 2, 3])
 def test_every_trajectory_has_a_line_of_its_own(level: int) -> None:
     for seed in range(10):
