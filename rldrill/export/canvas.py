@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from rldrill.exam.choices import Language
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, said_of_words, told_apart, wrong_answers
 from rldrill.export.packed import packed
 from rldrill.export.with_files import WithFiles
 from rldrill.export.words import page_words, typing_note
@@ -205,9 +205,9 @@ def _choices(
     writer: WithFiles, part: Part, every: Sequence[Cell], wrong: Sequence[Wrong]
 ) -> Iterator[tuple[str, tuple[_Option, ...], str]]:
     """For every cell with a word the name of its place, what there is to choose, and what stands before it."""
+    says = said_of_words(wrong)
     for index, cell in enumerate(every):
         assert isinstance(cell, Word)
-        says = {each.cells[index]: each.says for each in reversed(wrong)}
         options = tuple(
             _Option(
                 f"({escape(option)}) {writer.text(text)}" if isinstance(part.kind, Choice) else escape(text),

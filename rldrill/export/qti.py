@@ -18,6 +18,7 @@ from rldrill.export.asked import (
     cells,
     is_open,
     label,
+    said_of_words,
     told_apart,
     wrong_answers,
 )
@@ -237,7 +238,7 @@ class _Asked:
             for other, says in told_apart(cell, index, self.wrong):
                 yield _equal(name, other), says
             return
-        sentences = {each.cells[index]: each.says for each in reversed(self.wrong)}
+        sentences = said_of_words(self.wrong)
         for option in cell.options:
             if option not in cell.right and option in sentences:
                 yield _is(name, _key(cell, option)), sentences[option]

@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
+from itertools import product
 from types import MappingProxyType
 from typing import Any
 
@@ -13,11 +14,12 @@ from py_mini_racer import MiniRacer
 
 import rldrill
 from number_spellings import spellings
+from rldrill.export.asked import Word, cells
 from rldrill.export.html import task
 from rldrill.export.page import beside
 from rldrill.export.words import page_words
 from rldrill.problems.catalogue import family
-from rldrill.solutions.answers.judging import read_answer
+from rldrill.solutions.answers.judging import Outcome, read_answer
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import is_close, is_right
 from rldrill.solutions.answers.text import Unreadable, read_number
@@ -288,6 +290,22 @@ def test_a_typical_mistake_is_told() -> None:
     wrong = exercise.diagnosing.wrong_answers("a", 1)[0]
     verdict = judged(task(exercise, exercise.parts[0]), typed_cells(exercise, "a", wrong.answer))
     assert (verdict["outcome"], verdict["says"]) == ("misconception", wrong.sentence)
+
+
+@pytest.mark.parametrize(
+    ("identity", "label"),
+    [("policy-improvement/2/1", "b"), ("principle-of-optimality/1/2", "b"), ("value-iteration/2/1", "b"),
+     ("backup-diagram-name/2/1", "a")],
+)  # fmt: skip
+def test_of_wrong_words_the_page_says_what_the_library_says(identity: str, label: str) -> None:
+    """Whatever is chosen: which rewards are missing when one of two actions is wrong, nobody can know."""
+    exercise = rldrill.load(identity)
+    part = next(part for part in exercise.parts if part.label == label)
+    boxes = [cell.options for cell in cells(exercise, part) if isinstance(cell, Word)]
+    for words in product(*boxes):
+        verdict, expected = judged(task(exercise, part), [*words]), exercise.check(", ".join(words), label)
+        assert verdict["outcome"] == expected.outcome.value
+        assert expected.outcome is not Outcome.MISCONCEPTION or verdict["says"] == expected.says
 
 
 def test_what_is_unreadable_is_named_by_its_box() -> None:
