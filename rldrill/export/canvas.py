@@ -222,7 +222,7 @@ def _choices(
 def _item(question: _Question, name: str) -> Element:
     """A question as Canvas reads it."""
     item = Element("item", ident=name, title=question.title)
-    about = {"question_type": question.kind, "points_possible": f"{question.points:.6g}"}
+    about = {"question_type": question.kind, "points_possible": f"{question.points:.12g}"}
     _fields(SubElement(SubElement(item, "itemmetadata"), "qtimetadata"), about)
     shown = SubElement(item, "presentation")
     _html(shown, question.text)
@@ -291,7 +291,7 @@ def _when(judging: Element, going_on: Literal["Yes", "No"]) -> Element:
 
 def _score(judging: Element, action: Literal["Set", "Add"], score: Decimal) -> None:
     """What the last condition earns, in percent."""
-    SubElement(judging[-1], "setvar", varname="SCORE", action=action).text = f"{score:.6g}"
+    SubElement(judging[-1], "setvar", varname="SCORE", action=action).text = f"{score:.12g}"
 
 
 def _tell(judging: Element, key: str) -> None:

@@ -22,7 +22,7 @@
         const wrong = (verdict.wrong ?? []).includes(Number(field.dataset.cell));
         field.setAttribute("aria-invalid", wrong ? "true" : "false");
       });
-      if (verdict.outcome === "right") done.add(form.id);
+      done[verdict.outcome === "right" ? "add" : "delete"](form.id);
       document.getElementById("score").textContent = data.score.replace("{}", done.size).replace("{}", Object.keys(data.tasks).length);
     });
     // A whole answer pasted into one box fills the others, too.

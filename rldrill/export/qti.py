@@ -220,7 +220,7 @@ class _Asked:
             return
         rights = [_is_right(self._name(index), cell) for index, cell in enumerate(self.cells)]
         earning = [_all(rights)] if self._whole else rights
-        worth = f"{Decimal(self.part.points) / len(earning):.6g}"
+        worth = f"{Decimal(self.part.points) / len(earning):.12g}"
         score = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{worth}</baseValue></sum>'
         for right in earning:
             yield _first([(right, f'<setOutcomeValue identifier="SCORE">{score}</setOutcomeValue>')]), []
