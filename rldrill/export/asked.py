@@ -19,7 +19,7 @@ from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
-from rldrill.solutions.answers.judging import read_answer
+from rldrill.solutions.answers.judging import Outcome, read_answer
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind, text_of
 from rldrill.solutions.answers.rule import tolerance
@@ -137,16 +137,25 @@ def written(value: Fraction) -> str:
 
 
 def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iterator[Wrong]:
-    """Wrong answers to a part, the likeliest first; none to yes or no, where every mistake is the other."""
+    """Wrong answers to a part, the likeliest first; none to yes or no, where every mistake is the other.
+
+    Words are few, and can be wrong for many reasons: of them only those of which judging tells a mistake.
+    """
     if isinstance(part.kind, YesNo):
         return
     for wrong in exercise.diagnosing.wrong_answers(part.label, most):
+        sentence, read = wrong.sentence, wrong.read
+        if isinstance(part.kind, Choice | Policy):
+            verdict = exercise.check(wrong.answer, part.label)
+            if verdict.outcome is not Outcome.MISCONCEPTION:
+                continue
+            sentence, read = verdict.says, read if verdict.says == sentence else None
         try:
             found = read_answer(exercise.solution, part, wrong.answer)
         except Unreadable:
             continue  # a number so large that nobody types it
         value = answer_kind(part.kind).value({name: _content(cell) for name, cell in found.items()})
-        yield Wrong(tuple(map(_typed, found.values())), value, by_name(wrong.sentence, part.kind), wrong.read)
+        yield Wrong(tuple(map(_typed, found.values())), value, by_name(sentence, part.kind), read)
 
 
 def listed(exercise: Exercise, part: Part) -> Iterator[Wrong]:
@@ -168,6 +177,11 @@ def _typed(cell: Any) -> str:
     if isinstance(cell, Reading):
         return text_of(cell.value)
     return cell if isinstance(cell, str) else cell[0]
+
+
+def said_of_words(wrong: Sequence[Wrong]) -> Mapping[str, str]:
+    """What is said of a wrong word, where it is all of the answer: one of several alone proves no mistake."""
+    return {each.cells[0]: each.says for each in reversed(wrong) if len(each.cells) == 1}
 
 
 def told_apart(right: Quantity, index: int, wrong: Sequence[Wrong]) -> Iterator[tuple[Quantity, str]]:

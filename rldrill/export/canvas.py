@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from rldrill.exam.choices import Language
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, said_of_words, told_apart, wrong_answers
 from rldrill.export.packed import packed
 from rldrill.export.with_files import WithFiles
 from rldrill.export.words import page_words, typing_note
@@ -205,9 +205,9 @@ def _choices(
     writer: WithFiles, part: Part, every: Sequence[Cell], wrong: Sequence[Wrong]
 ) -> Iterator[tuple[str, tuple[_Option, ...], str]]:
     """For every cell with a word the name of its place, what there is to choose, and what stands before it."""
+    says = said_of_words(wrong)
     for index, cell in enumerate(every):
         assert isinstance(cell, Word)
-        says = {each.cells[index]: each.says for each in reversed(wrong)}
         options = tuple(
             _Option(
                 f"({escape(option)}) {writer.text(text)}" if isinstance(part.kind, Choice) else escape(text),
@@ -222,7 +222,7 @@ def _choices(
 def _item(question: _Question, name: str) -> Element:
     """A question as Canvas reads it."""
     item = Element("item", ident=name, title=question.title)
-    about = {"question_type": question.kind, "points_possible": f"{question.points:.6g}"}
+    about = {"question_type": question.kind, "points_possible": f"{question.points:.12g}"}
     _fields(SubElement(SubElement(item, "itemmetadata"), "qtimetadata"), about)
     shown = SubElement(item, "presentation")
     _html(shown, question.text)
@@ -291,7 +291,7 @@ def _when(judging: Element, going_on: Literal["Yes", "No"]) -> Element:
 
 def _score(judging: Element, action: Literal["Set", "Add"], score: Decimal) -> None:
     """What the last condition earns, in percent."""
-    SubElement(judging[-1], "setvar", varname="SCORE", action=action).text = f"{score:.6g}"
+    SubElement(judging[-1], "setvar", varname="SCORE", action=action).text = f"{score:.12g}"
 
 
 def _tell(judging: Element, key: str) -> None:

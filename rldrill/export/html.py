@@ -167,7 +167,7 @@ def _box(language: Language, index: int, cell: Cell) -> str:
             f'<input type="text" name="cell-{index}" data-cell="{index}" aria-label="{called}" autocomplete="off" '
             'autocapitalize="none" spellcheck="false">'
         )
-    options = "".join(f"<option>{escape(option)}</option>" for option in cell.options)
+    options = "".join(f'<option value="{escape(option)}">{escape(option)}</option>' for option in cell.options)
     return (
         f'<select name="cell-{index}" data-cell="{index}" aria-label="{called}">'
         f'<option value="">{page_words(language).choose}</option>{options}</select>'

@@ -506,5 +506,55 @@ const Judge = (() => {
     return { outcome: "wrong", says: some ? told.some.replace("{}", names.join("; ")) : told.wrong, wrong };
   }
 
-  return { part, read, right, Unreadable };
+  // A whole answer pasted into one of the boxes with these names: [box, text] for each of its entries, by name where all
+  // have one, else from that box on; nothing where it is one entry, or it is not clear whose they are.
+  function pasted(text, names, at, comma = false) {
+    const found = entries(text, comma, false);
+    if (found.length < 2 || (!comma && /^\s*[-+−]?[0-9]+,[0-9]+\s*$/u.test(text))) return null; // 0,5 may be one number
+    const called = found.map((entry) => /^([^=:]*)[=:](.*)$/su.exec(entry) ?? ["", "", entry]);
+    const places = called.map(([, name]) => placeOf(name, names));
+    if (places.every((place) => place < 0)) {
+      return found.length > names.length - at ? null : found.map((entry, index) => [at + index, entry]);
+    }
+    if (places.includes(-1) || new Set(places).size < places.length) return null;
+    return places.map((place, index) => [place, called[index][2].trim()]);
+  }
+  // V(cool), "cool" and (cool) name the box that is called cool
+  const placeOf = (typed, names) => {
+    const bare = (name) => name.normalize("NFKC").toLowerCase().replace(/[\s"']/gu, "").replace(/^\((.*)\)$/u, "$1");
+    const called = bare(typed), of = /\(([^()]*)\)$/u.exec(called)?.[1];
+    return names.findIndex((name) => name && [called, of].includes(bare(name)));
+  };
+  // The entries of a list, of its rows, and of lists in it; blanks part them within square brackets alone
+  function entries(text, comma, square) {
+    const list = text.trim(), within = inside(list);
+    if (within !== null) {
+      const found = entries(within, comma, square || list[0] === "[");
+      return found.length > 1 || list[0] === "[" ? found : [list];
+    }
+    const pieces = parted(list, comma);
+    if (pieces.length > 1) return pieces.flatMap((piece) => entries(piece, comma, square));
+    const words = list.split(/\s+/u);
+    return square && !words.some((word) => /^[*/^=:]|[-+−*/^=:]$/u.test(word)) ? words : [list];
+  }
+  const deeper = (sign) => "([{".includes(sign) - ")]}".includes(sign);
+  // What stands between brackets that hold all of a text
+  const inside = (text) => {
+    let depth = 0;
+    const end = [...text].findIndex((sign) => { depth += deeper(sign); return !depth; });
+    return end > 0 && end === [...text].length - 1 ? text.slice(1, -1) : null;
+  };
+  const parted = (text, comma) => {
+    const pieces = [""];
+    let depth = 0;
+    [...text].forEach((sign, index, all) => {
+      depth += deeper(sign);
+      const parts = ";\n\t".includes(sign) || (sign === "," && (!comma || /\s/u.test(all[index + 1] ?? " ")));
+      if (parts && !depth) pieces.push("");
+      else pieces.push(pieces.pop() + sign);
+    });
+    return pieces.map((piece) => piece.trim()).filter(Boolean);
+  };
+
+  return { part, pasted, read, right, Unreadable };
 })();

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 from rldrill.exam.choices import Language
 from rldrill.exam.exam import Exam, Head, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, label, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, label, said_of_words, told_apart, wrong_answers
 from rldrill.export.with_files import WithFiles, matrix_rows
 from rldrill.export.words import note, page_words
 from rldrill.problems.parts import Choice, Matrix, Part
@@ -110,7 +110,7 @@ def _laid_out(writer: WithFiles, part: Part, asked: Sequence[Cell], boxes: Seque
 
 def _box(language: Language, part: Part, cell: Cell, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
     if isinstance(cell, Word):
-        return _options(part, cell, index, weight, wrong)
+        return _options(part, cell, weight, wrong)
     right = page_words(language).right
     answers = [f"={cell.decimal}:{cell.tolerance}#{_escaped(right)}"]
     for other, says in told_apart(cell, index, wrong):
@@ -118,8 +118,8 @@ def _box(language: Language, part: Part, cell: Cell, index: int, weight: int, wr
     return f"{{{weight}:NUMERICAL:{'~'.join(answers)}}}"
 
 
-def _options(part: Part, cell: Word, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
-    says = {each.cells[index]: each.says for each in reversed(wrong)}
+def _options(part: Part, cell: Word, weight: int, wrong: Sequence[Wrong]) -> str:
+    says = said_of_words(wrong)
     answers = []
     for option, text in cell.options.items():
         shown = _escaped(option if isinstance(part.kind, Choice) else text)  # what a letter stands for is told above

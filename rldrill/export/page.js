@@ -22,17 +22,18 @@
         const wrong = (verdict.wrong ?? []).includes(Number(field.dataset.cell));
         field.setAttribute("aria-invalid", wrong ? "true" : "false");
       });
-      if (verdict.outcome === "right") done.add(form.id);
+      done[verdict.outcome === "right" ? "add" : "delete"](form.id);
       document.getElementById("score").textContent = data.score.replace("{}", done.size).replace("{}", Object.keys(data.tasks).length);
     });
-    // A whole row pasted into one box fills the boxes from there on.
+    // A whole answer pasted into one box fills the others, too.
     form.addEventListener("paste", (event) => {
       const boxes = [...form.querySelectorAll("input[data-cell]")];
+      const names = boxes.map((box) => task.cells[box.dataset.cell].name);
       const at = boxes.indexOf(event.target);
-      const pieces = (event.clipboardData?.getData("text") ?? "").replace(/[[\]]/g, "").split(data.told.comma ? /[;\n\t]+|,\s+/ : /[,;\n\t]+/).map((piece) => piece.trim()).filter(Boolean);
-      if (at < 0 || pieces.length < 2 || pieces.length > boxes.length - at) return;
+      const found = at >= 0 && Judge.pasted(event.clipboardData?.getData("text") ?? "", names, at, data.told.comma);
+      if (!found) return;
       event.preventDefault();
-      pieces.forEach((piece, index) => { boxes[at + index].value = piece.replace(/^[^:=]*[:=]\s*/, ""); });
+      found.forEach(([index, text]) => { boxes[index].value = text; });
     });
   }
 })();

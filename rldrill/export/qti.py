@@ -18,6 +18,7 @@ from rldrill.export.asked import (
     cells,
     is_open,
     label,
+    said_of_words,
     told_apart,
     wrong_answers,
 )
@@ -219,7 +220,7 @@ class _Asked:
             return
         rights = [_is_right(self._name(index), cell) for index, cell in enumerate(self.cells)]
         earning = [_all(rights)] if self._whole else rights
-        worth = f"{Decimal(self.part.points) / len(earning):.6g}"
+        worth = f"{Decimal(self.part.points) / len(earning):.12g}"
         score = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{worth}</baseValue></sum>'
         for right in earning:
             yield _first([(right, f'<setOutcomeValue identifier="SCORE">{score}</setOutcomeValue>')]), []
@@ -237,7 +238,7 @@ class _Asked:
             for other, says in told_apart(cell, index, self.wrong):
                 yield _equal(name, other), says
             return
-        sentences = {each.cells[index]: each.says for each in reversed(self.wrong)}
+        sentences = said_of_words(self.wrong)
         for option in cell.options:
             if option not in cell.right and option in sentences:
                 yield _is(name, _key(cell, option)), sentences[option]

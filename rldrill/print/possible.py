@@ -23,6 +23,8 @@ _BOUNDS = re.compile(r"(\d+) ([<≤]) (\w) ([<≤]) (\d+)")
 _ASKED = re.compile(r"[Ww]hat is (?:the ([\w ]+) )?(\w)\?")
 #: What is called so lies between 0 and 1, whether the statement says it or not.
 _SHARES = frozenset({"discount", "exploration rate", "probability"})
+#: The same, said before: The probability q is unknown.
+_UNKNOWN = re.compile(rf"[Tt]he (?:{'|'.join(sorted(_SHARES))}) (\w) is (?:unknown|not known)")
 _PROBABILITIES = frozenset({Glyph("p", "variable"), Glyph("π", "variable"), Glyph("Pr", "word")})
 _SIGNS = {"<": lt, "≤": le}
 _DIGITS = 12
@@ -62,10 +64,11 @@ def _ranges(exercise: Exercise, part: Part) -> Iterator[_Range]:
     asked = _ASKED.search(ask)
     if asked is None:
         return
-    if asked[1] in _SHARES:
-        yield _Range()
     texts = (inline(block.text) for block in exercise.question() if isinstance(block, Paragraph))
-    for low, below, letter, above, high in _BOUNDS.findall(" ".join((*texts, ask))):
+    told = " ".join((*texts, ask))
+    if asked[1] in _SHARES or asked[2] in _UNKNOWN.findall(told):
+        yield _Range()
+    for low, below, letter, above, high in _BOUNDS.findall(told):
         if letter == asked[2]:
             yield _Range(Decimal(low), Decimal(high), below, above)
 

@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
+from itertools import product
 from types import MappingProxyType
 from typing import Any
 
@@ -13,11 +14,12 @@ from py_mini_racer import MiniRacer
 
 import rldrill
 from number_spellings import spellings
+from rldrill.export.asked import Word, cells
 from rldrill.export.html import task
 from rldrill.export.page import beside
 from rldrill.export.words import page_words
 from rldrill.problems.catalogue import family
-from rldrill.solutions.answers.judging import read_answer
+from rldrill.solutions.answers.judging import Outcome, read_answer
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import is_close, is_right
 from rldrill.solutions.answers.text import Unreadable, read_number
@@ -290,11 +292,56 @@ def test_a_typical_mistake_is_told() -> None:
     assert (verdict["outcome"], verdict["says"]) == ("misconception", wrong.sentence)
 
 
+@pytest.mark.parametrize(
+    ("identity", "label"),
+    [("policy-improvement/2/1", "b"), ("principle-of-optimality/1/2", "b"), ("value-iteration/2/1", "b"),
+     ("backup-diagram-name/2/1", "a")],
+)  # fmt: skip
+def test_of_wrong_words_the_page_says_what_the_library_says(identity: str, label: str) -> None:
+    """Whatever is chosen: which rewards are missing when one of two actions is wrong, nobody can know."""
+    exercise = rldrill.load(identity)
+    part = next(part for part in exercise.parts if part.label == label)
+    boxes = [cell.options for cell in cells(exercise, part) if isinstance(cell, Word)]
+    for words in product(*boxes):
+        verdict, expected = judged(task(exercise, part), [*words]), exercise.check(", ".join(words), label)
+        assert verdict["outcome"] == expected.outcome.value
+        assert expected.outcome is not Outcome.MISCONCEPTION or verdict["says"] == expected.says
+
+
 def test_what_is_unreadable_is_named_by_its_box() -> None:
     exercise = rldrill.load("td-zero/2/234")
     verdict = judged(task(exercise, exercise.parts[0]), ["1", "one", "2"])
     assert verdict["outcome"] == "unreadable"
     assert verdict["says"].startswith("entry 2: ")
+
+
+@pytest.mark.parametrize(
+    ("text", "names", "boxes"),
+    [
+        ("warm: 2.5, cool: 3.5", "cool warm", "3.5 2.5"), ("V(warm) = 5/2; V(cool) = 7/2", "cool warm", "7/2 5/2"),
+        ('{"warm": 2.5, "cool": 3.5}', "cool warm", "3.5 2.5"), ("3.5, 2.5", "cool warm", "3.5 2.5"),
+        ("Q(s, b) = 2, Q(s, a) = 1", "(s,a) (s,b)", "1 2"), ("(s, b): 2; (s, a): 1", "(s,a) (s,b)", "1 2"),
+        ("[1 2; 3 4]", "a b c d", "1 2 3 4"), ("[[1. 2.]\n [3. -4.]]", "a b c d", "1. 2. 3. -4."),
+        ("[[1, 2], [3, 4]]", "a b c d", "1 2 3 4"), ("(1, 2)", "a b", "1 2"), ("1\t2\n3\t4", "a b c d", "1 2 3 4"),
+        ("3, f(1, 2)", "a b", "3 f(1,2)"), ("δ_0 = 10, δ_1 = -5", "a b", "δ_0=10 δ_1=-5"), ("[1 -1]", "a b", "1 -1"),
+        # One number, or not clear whose
+        ("0,5", "a b", ""), ("-1,5", "a b", ""), ("(1 + 2)", "a b", ""), ("1 2", "a b", ""), ("[1 - 1]", "a b", ""),
+        ("cool: 1, 2", "cool warm", ""), ("cool: 1, hot: 2", "cool warm", ""), ("cool: 1, cool: 2", "cool warm", ""),
+        ("1, 2, 3", "a b", ""),
+    ],
+)  # fmt: skip
+def test_a_whole_answer_that_is_pasted_fills_the_boxes(text: str, names: str, boxes: str) -> None:
+    found = json.loads(engine()(f"JSON.stringify(Judge.pasted({json.dumps(text)}, {json.dumps(names.split())}, 0))"))
+    filled = {index: value.replace(" ", "") for index, value in found or ()}
+    assert [filled[index] for index in sorted(filled)] == boxes.split()
+
+
+def test_where_commas_are_decimal_blanks_behind_them_part_what_is_pasted() -> None:
+    for text in ("0,5; 1,5", "0,5, 1,5", "[0,5 1,5]"):
+        assert json.loads(engine()(f"JSON.stringify(Judge.pasted({json.dumps(text)}, ['', '', ''], 1, true))")) == [
+            [1, "0,5"], [2, "1,5"],
+        ]  # fmt: skip
+    assert engine()("Judge.pasted('0,5', ['', ''], 0, true)") is None
 
 
 def test_the_page_says_in_german_what_it_cannot_read() -> None:

@@ -172,6 +172,16 @@ def test_points_are_shared_as_those_of_the_parts() -> None:
     assert Fraction(sum(weights[:3]), sum(weights)) == Fraction(first.points, first.points + second.points)
 
 
+def test_a_wrong_word_beside_others_is_not_told_where_it_comes_from() -> None:
+    """Whoever errs in one state may have erred for many reasons; of a choice there is only one word."""
+    exercises = tuple(map(rldrill.load, ("policy-improvement/2/1", "backup-diagram-name/2/1")))
+    exam = Exam(Head(title="Words"), 1, (Version("A", exercises, (0, 1)),))
+    words, choice = ElementTree.fromstring(moodle_exam(exam, practice=False))[1:]
+    said = [re.findall(r":MULTICHOICE:([^}]*)", each.findtext("questiontext/text") or "") for each in (words, choice)]
+    assert said[0][:3] == ["=fast~slow#", "=fast~slow#", "fast#~=slow"]
+    assert all("starts at" in box for box in said[1])
+
+
 def test_a_part_that_shall_not_count_weighs_nothing() -> None:
     """Three boxes share 2 points, so all is counted threefold; Moodle takes a weight of 0 for what it is."""
     asked, open_ = (rldrill.load(name) for name in ("td-zero/2/234", "policy-value/3/1"))

@@ -28,6 +28,13 @@ def test_a_discount_lies_between_0_and_1_and_may_be_either() -> None:
     ]  # fmt: skip
 
 
+def test_a_probability_that_is_called_so_before_it_is_asked_for_lies_between_0_and_1() -> None:
+    """“The probability q is unknown. … What is q?”"""
+    exercise = load("bayes-filter/3/1")
+    part = exercise.parts[0]
+    assert [is_possible(exercise, part, fmpq(*each)) for each in ((2, 3), (85, 27), (-1, 3))] == [True, False, False]
+
+
 def test_a_probability_may_exceed_1_where_somebody_does_not_divide_and_is_never_negative() -> None:
     exercise = load("softmax-policy/1/1")
     part = exercise.parts[1]
