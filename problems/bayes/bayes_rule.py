@@ -30,7 +30,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Bayes' rule"
 SOURCE = "Thrun, Burgard & Fox 2005, sections 2.2 and 2.4"
-REVISION = 5
+REVISION = 4
 
 
 class Given(Givens):
@@ -95,7 +95,7 @@ _STORIES = (
     _Story("A robot stands before a door and looks at it.", ("open", "ajar", "closed"), ("looks open", "looks closed")),
     _Story("A probe drills for water and reads its sensor.", ("water", "sand", "rock"), ("wet", "dry")),
     _Story("A robot does not know where in a corridor it is.", ("west", "middle", "east"), ("door", "wall")),
-    _Story("A workshop examines the motor of an old robot.", ("sound", "worn", "cracked"), ("quiet", "noisy")),
+    _Story("A factory tests whether a motor is sound.", ("sound", "worn", "cracked"), ("quiet", "noisy")),
 )
 
 

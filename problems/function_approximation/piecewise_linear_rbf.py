@@ -30,7 +30,7 @@ from rldrill.problems.parts import Number, Part
 
 TITLE = "Piecewise linear RBF"
 SOURCE = "Lecture sheet; triangular kernel"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Centred):
@@ -75,15 +75,21 @@ class Given(Centred):
 
 
 #: Steps in the plane by the width, the first in both directions. Some are just outside: a step less, and they are not.
+#: None are on the edge, where a feature is 0 whether it is cut off or not.
 _WHOLE_STEPS = {
-    "5": ((3, 4), (0, 2), (0, 3)), "9/2": ((3, 4), (0, 1), (0, 3)), "6": ((3, 4), (0, 2), (0, 4)),
-    "8": ((3, 4), (0, 4), (0, 6)), "10": ((3, 4), (0, 4), (6, 8)),
+    "9/2": ((3, 4), (0, 1), (0, 3)), "6": ((3, 4), (0, 2), (0, 4)),
+    "8": ((3, 4), (0, 4), (0, 6)), "19/2": ((3, 4), (0, 4), (6, 8)),
 }  # fmt: skip
 #: The same with distances that are roots; the second one never is.
 _STEPS = {
-    "9/2": ((1, 2), (0, 1), (3, 4)), "5": ((2, 3), (0, 3), (3, 4)), "4": ((1, 2), (0, 3), (3, 3)),
+    "9/2": ((1, 2), (0, 1), (3, 4)), "11/2": ((2, 3), (0, 3), (4, 4)), "4": ((1, 2), (0, 3), (3, 3)),
     "7": ((2, 4), (3, 4), (0, 4)), "8": ((1, 4), (3, 4), (0, 3)), "9": ((4, 5), (3, 4), (0, 7)),
 }  # fmt: skip
+
+
+#: Widths of features on a line: a whole distance just outside of one of the first kind is not on its edge.
+_HALVES = {1: ("7/2", "9/2", "11/2"), 2: ("11/2", "13/2", "15/2"), 3: ("9/2", "11/2", "15/2", "21/2")}
+_WHOLES = {1: ("3", "4", "5"), 2: ("5", "6", "7")}
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -96,11 +102,13 @@ def draw(level: int, rng: Draws) -> Given:
     valued = level == 2 and rng.choice((True, False))
     if level == 1 or rng.choice((True, False)):
         count = level + 1
-        width = rng.choice((("3", "4", "7/2", "5", "9/2"), ("5", "11/2", "6", "13/2", "7"))[level - 1])
-        inside, beyond = int(_ceiling(width)) - 1, _ceiling(width)
-        far = [*rng.distinct(count, 1, inside)] if count <= inside else [*rng.distinct(2, 1, inside)]
-        if not valued and rng.choice((True, False)):
-            far.append(beyond)
+        outside = not valued and rng.choice((True, False))
+        width = rng.choice(_HALVES[level] if outside else (*_WHOLES[level], *_HALVES[level]))
+        beyond = ceil(fraction_of(width))
+        far: list[int | Fraction] = [
+            *rng.distinct(min(count, beyond - 1), 1, beyond - 1),
+            *([beyond] if outside else []),
+        ]
         centred = draw_on_a_line(rng, rng.shuffled(far))
     else:
         width = rng.choice(("6", "8") if valued else tuple(_WHOLE_STEPS))
@@ -113,16 +121,12 @@ def draw(level: int, rng: Draws) -> Given:
     )
 
 
-def _ceiling(width: str) -> Fraction:
-    """The first whole distance at which a feature is 0."""
-    return Fraction(ceil(fraction_of(width)))
-
-
 def _width_sought(rng: Draws) -> Given:
     """One feature tells the width, and with it the others."""
     if rng.choice((True, False)):
-        width = rng.whole(7, 12)
-        centred = draw_on_a_line(rng, rng.shuffled((*rng.distinct(rng.choice((2, 3)), 1, int(width) - 1), width)))
+        width = fraction_of(rng.choice(_HALVES[3]))
+        beyond = ceil(width)
+        centred = draw_on_a_line(rng, rng.shuffled((*rng.distinct(rng.choice((2, 3)), 1, beyond - 1), beyond)))
     else:
         text = rng.choice(tuple(_STEPS))
         width, centred = fraction_of(text), draw_in_the_plane(rng, _STEPS[text])
@@ -134,8 +138,11 @@ def _width_sought(rng: Draws) -> Given:
 
 def _state_sought(rng: Draws) -> Given:
     """Two features tell the state, on one side of both centres or between them, and with it the third."""
-    width = rng.whole(6, 12)
-    far = rng.distinct(rng.choice((3, 4)), 1, int(width))
+    width, count = rng.whole(6, 12), rng.choice((3, 4))
+    far = rng.distinct(count, 1, int(width) - 1)
+    if rng.choice((True, False)):
+        width = fraction_of(rng.choice(_HALVES[3]))
+        far = (*rng.distinct(count - 1, 1, ceil(width) - 1), Fraction(ceil(width)))
     centred = draw_on_a_line(rng, far)
     inside = [n for n, distance in enumerate(far, 1) if distance < width]
     known = {number: 1 - far[number - 1] / width for number in rng.sample(inside, 2)}

@@ -15,7 +15,7 @@ from rldrill.solutions.sheet.function_approximation import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (NOT_CLAMPED, WIDTH_FORGOTTEN)
+MISCONCEPTIONS = (NOT_CLAMPED.where_it_shows(), WIDTH_FORGOTTEN)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -154,7 +154,9 @@ with evaluate(False):
     NOT_CLAMPED = Misconception(
         "not-clamped-at-0",
         "Beyond the distance b from its centre a feature is 0, not negative.",
-        when=lambda given: given.width is not None and any(square > given.width**2 for square in _distances(given)),
+        when=lambda given: (
+            None in (given.width, given.position) or any(square > given.width**2 for square in _distances(given))
+        ),
     )
     WIDTH_FORGOTTEN = Misconception(
         "width-forgotten",

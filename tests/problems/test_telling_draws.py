@@ -260,3 +260,11 @@ def test_no_two_actions_of_a_softmax_policy_are_as_probable_where_x_plays_a_part
         if not given.entropy:
             chances = solution.answers["b"].values()
             assert len({*map(str, chances)}) == len(chances), seed
+
+
+def test_no_state_is_on_the_edge_of_a_tent_and_many_are_beyond_one() -> None:
+    # On the edge 1 − d/b is 0 by itself, so that nobody sees who forgets the maximum with 0.
+    for level in (1, 2, 3):
+        workings = [str(rldrill.draw("piecewise-linear-rbf", level, seed).working()) for seed in range(60)]
+        assert not any("max(0, 0)" in working for working in workings)
+        assert sum("max(0, −" in working for working in workings) > 5
