@@ -158,10 +158,10 @@ def _named(names: list[str], count: int, what: str) -> list[str]:
 def _by_name(R: Mapping[Any, Any], names: Sequence[str]) -> list[Any]:
     """Rewards in the order of the names."""
     rows = {str(name): row for name, row in R.items()}
-    if missing := [name for name in names if name not in rows]:
-        raise ValueError(f"R: the rewards of {missing[0]!r} are missing; add them")
     if unknown := [name for name in rows if name not in names]:
         raise ValueError(f"R: {unknown[0]!r} is the name of no state and of no action; give states and actions, too")
+    if missing := [name for name in names if name not in rows]:
+        raise ValueError(f"R: the rewards of {missing[0]!r} are missing; add them")
     return [rows[name] for name in names]
 
 

@@ -16,7 +16,7 @@ ALSO = {
     "λ": "lam", "lambda_": "lam", "behavior": "behaviour", "centers": "centres", "discretization": "discretisation",
     "Qf": "Q_T", "Q_f": "Q_T", "QT": "Q_T", "Q_N": "Q_T", "noise": "slip", "observation": "measurement",
     "iterations": "sweeps", "k": "sweeps", "V": "values", "Q": "values", "V0": "start", "episode": "trajectory",
-    "living_reward": "step", "loglik": "log_likelihood", "logL": "log_likelihood", "log_lik": "log_likelihood",
+    "loglik": "log_likelihood", "logL": "log_likelihood", "log_lik": "log_likelihood",
 } | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
 #: What stands between the entries of a list that is given as one text; such a text is none of its entries.
 _PARTED = re.compile(r"[\s,;]")

@@ -27,6 +27,8 @@ _NAMED = 3
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 #: A line of a working that says what it works out: the head of the name and its index, R and 0 of R_0^(2) = 2.
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)(?:_?\{?([0-9]+))?[^=:≈\n]*+[=:≈]")
+#: A name that can be no number.
+_WORD = re.compile(r"[^\W\d_]{3,}(?: [^\W\d_]+)*")
 
 
 class Outcome(Enum):
@@ -119,7 +121,17 @@ def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
     names = kind.cells(solution.answers[part.label])
     if not isinstance(part.kind, Choice) and part.label not in {*names, *problem.parameters, "e"}:
         text = re.sub(rf"^\s*\(?{part.label}\)\s*(?=\S)", "", text)  # (a) 6.5
-    return kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
+    allowed = Allowed(problem.parameters, problem.terminal_states, longest, _actions(problem.parts))
+    return kind.read(text, allowed)
+
+
+def _actions(parts: Sequence[Part]) -> tuple[str, ...]:
+    """The actions that policies are asked for, but for those whose names could be numbers or letters of numbers."""
+    found: dict[str, None] = {}
+    for part in parts:
+        if isinstance(part.kind, Policy):
+            found |= dict.fromkeys(action for actions in part.kind.actions.values() for action in actions)
+    return tuple(action for action in found if _WORD.fullmatch(action) and action not in GREEK)
 
 
 def what_is_missing(solution: Solution, part: Part, cells: Mapping[str, Cell]) -> str:

@@ -22,6 +22,8 @@ _QUOTES = "'\""
 #: What parts an item from the next one, beside a comma: cool: fast and warm: slow.
 _AND = re.compile(r"(?:\s+(?:and|und)|\s*&)\s*$")
 _HEAD = re.compile(r"([^:=()\[\]{}]+?)\s*(?:(?::|=|->|→|↦)\s*|(?=[(\[{]))(?=\S)")
+#: A working in numbers, before what comes out of it, is no name: 4 + 1/2*(0 - 2) = 3.
+_WORKED = re.compile(r"[=\s]*[-+(]*[0-9.]+(?=[\s)]*[-+*/^·×÷])[-0-9.\s+*/^()·×÷%√]*")
 #: Values behind commas that are no decimal commas, having a blank behind them.
 _ROW = re.compile(r"[^,:=\[\](){}]+(?:,\s[^,:=\[\](){}]+)+")
 #: A number behind one of these is part of a working, not the name of what is typed next.
@@ -198,6 +200,8 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
         named = re.search(r"\w", before) or (before.strip() and _known(before.strip(), asked))
         if not named or (mark[0] in ("→", "->") and not piece.text[mark.end() :].strip()):
             continue  # an arrow that is an action
+        if not name and mark[0] == "=" and _WORKED.fullmatch(before) and not _known(before.strip("= "), asked):
+            continue
         if not name:
             start, name, begun = 0, before.strip(), mark.end()
             continue

@@ -1,8 +1,11 @@
 """Values that are said to hold for all or for the rest of what is asked for, and other things that people say."""
 
+from pathlib import Path
+
 import pytest
 from flint import fmpq
 
+import rldrill
 from promptness import at_once
 from rldrill.problems.parts import Policy
 from rldrill.solutions.answers.kinds import Allowed, answer_kind
@@ -134,3 +137,26 @@ def test_yes_and_no_in_other_words() -> None:
 def test_what_may_be_said_of_all_takes_no_time_to_look_for(text: str) -> None:
     with at_once(), pytest.raises(Unreadable):
         read_table(text, STATES)
+
+
+#: The racing car of the README: V₂(cool) = 7/2 by fast, V₂(warm) = 5/2 by slow.
+CAR = rldrill.load(Path(__file__).parents[2] / "examples" / "racing-car.toml")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["cool: 3.5 (fast), warm: 2.5 (slow)", "7/2 (fast); 5/2 (slow)", "V(cool) = 3.5 (fast)\nV(warm) = 2.5 (slow)",
+     "= 1 + 5/2 = 3.5; = 1 + 3/2 = 2.5", "1/2*(2 + 2) + 3/2 = 3.5, (1 + 4)/2 = 2.5"],
+)  # fmt: skip
+def test_the_action_behind_a_value_and_the_working_before_it(text: str) -> None:
+    assert CAR.check(text, "a").outcome.value == "right"
+
+
+@pytest.mark.parametrize("text", ["cool: 3.5 (fast) 2, warm: 2.5", "(fast): 3.5, (slow): 2.5", "1 + 1 = 3.5, 2.5"])
+def test_what_is_neither_an_action_behind_a_value_nor_its_working(text: str) -> None:
+    assert CAR.check(text, "a").outcome.value == "unreadable"
+
+
+def test_a_working_of_the_one_value_that_is_asked_for() -> None:
+    assert [each.value for each in read_table("= 4 + 0.5*(0 - 2) = 3", ["floor"]).values()] == [3]
+    assert [each.value for each in read_table("1 = 2, 2 = 3", ["1", "2"]).values()] == [2, 3]
