@@ -321,9 +321,10 @@ class Search:
             return
         every = []
         for cause in at_one(application, self.problem.given):
-            if application.number in self._shares:
-                cause = self._in_a_share(cause)
-            every.append(cause)
+            if application.number not in self._shares:
+                every.append(cause)
+            elif self._is_possible_share(cause):
+                every.append(self._in_a_share(cause))
             yield
         found: dict[Any, list[Cause]] = defaultdict(list)
         for cause in sorted(every, key=lambda cause: -cause.weight):
@@ -336,16 +337,19 @@ class Search:
         self._alternatives[application.number] = sorted(apart, key=lambda cause: -cause.weight)
 
     @staticmethod
-    def _in_a_share(cause: Cause) -> Cause:
-        """A cause in one share of several: no slip makes it negative or larger than 1.
+    def _is_possible_share(cause: Cause) -> bool:
+        """Whether somebody goes on with what came out for a share: not if it is negative or more than 1.
 
-        A formula is misread for all of them, and what they are divided by is worked out once.
+        That a point or a digit slipped is seen in the number itself, whatever its size.
         """
-        if cause.mistake is not None or cause.term:
-            cause = replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
-        if cause.kind in ("tenfold", "digits"):  # a point or a digit slips in any number
+        return cause.kind in ("tenfold", "digits") or likely_share(cause.became) == 1
+
+    @staticmethod
+    def _in_a_share(cause: Cause) -> Cause:
+        """A cause in one share of several: all are misread alike, and what they are divided by is worked out once."""
+        if cause.mistake is None and not cause.term:
             return cause
-        return replace(cause, weight=cause.weight * likely_share(cause.became))
+        return replace(cause, weight=cause.weight * weights.IN_ONE_TERM)
 
     @cached_property
     def _shares(self) -> set[int]:

@@ -69,8 +69,6 @@ ALIKE = (
 )
 #: Slips of arithmetic that are told in the same words.
 SLIPS = frozenset(("numerator", "denominator", "one-off", "doubled", "halved"))
-#: Slips of a sign.
-SIGNS = frozenset(("sign", "summand-sign", "difference", "minus-lost"))
 #: How much less likely it is that somebody takes 1 − x for x where x is no share of 1.
 NO_SHARE = 0.05
 #: How much less likely an edit is at one application alone, and in one term of a sum alone.

@@ -328,6 +328,17 @@ def test_of_three_the_opposite_order_is_an_exchange_of_two() -> None:
     assert "opposite" not in diagnosis.sentence
 
 
+def test_nobody_goes_on_with_a_share_that_is_negative_or_more_than_1() -> None:
+    given = {"prior": {"rain": "1/4", "sun": "3/4"}, "likelihood": {"wet": {"rain": "4/5", "sun": "2/5"}}}
+    exercise = rldrill.read({"family": "bayes-rule", "given": given | {"measurements": ["wet", "wet"]}})
+    search = Search(exercise.solution)
+    causes = [cause for application in search.applications for cause in search.alternatives(application)]
+    slipped = [cause.became for cause in causes if cause.kind not in ("tenfold", "digits")]
+    assert len(slipped) > 50
+    assert all(0 <= share <= 1 for share in slipped)
+    assert any(cause.became > 1 for cause in causes)  # 2/5 with its point one place further
+
+
 def test_the_answer_to_a_part_before_is_named() -> None:
     # N(0, 1) moved by 2 ± 1 is N(2, 2); with the gain 1/2 the reading 4 makes it N(3, 1), and 1 ± 1 more N(4, 2).
     steps = [{"u": [2], "z": [4]}, {"u": [1]}]
