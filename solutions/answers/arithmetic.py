@@ -36,7 +36,8 @@ _DEGREE = 24
 _OPEN, _CLOSED = (4, 2, 100), (0, 4, 400)
 _EXPONENT = 64
 _GROWTH = 100  # of the exponent of e
-_ROOT = 12  # the highest root, and the digits of what it is taken of
+_ROOT = 12  # the highest root
+_RADICAND = 40  # the digits of what it is taken of
 _ANGLE = 1000
 _TURNS = frozenset({1, 2, 3, 4, 6, 12})  # pi over these has a sine that is short to write
 _LARGE = "A number in it grows too large; write it in a simpler form."
@@ -157,9 +158,9 @@ class Arithmetic:
             raise Unreadable("A root of a negative number is not a real number.")
         if is_rational(number):
             largest = max(int(number.p), int(number.q))
-            if largest > 10**_ROOT:
-                raise Unreadable(f"A root is read of numbers of at most {_ROOT} digits; write a decimal.")
-            self._spend(100 if largest < 10**6 else 400)
+            if largest > 10**_RADICAND:
+                raise Unreadable(f"A root is read of numbers of at most {_RADICAND} digits; write a decimal.")
+            self._spend(100 if largest < 10**6 else 400 if largest < 10**12 else 1200)
         elif index != 2:
             raise Unreadable("Only square roots are read of such a number; write a decimal.")
         nested = self._nested(number)

@@ -279,7 +279,7 @@ REFUSED = {
     "e^101": "100 is the largest",
     "exp(10^30 ln 2)": "100 is the largest",
     "2^(1/13)": "whole numbers or fractions down to",
-    "sqrt(1234567890123)": "at most 12 digits",
+    f"sqrt({41 * '1'})": "at most 40 digits",
     "." + "1" * 41: "40 digits are the most",
     "1e41": "40 digits are the most",
     "3\u200b": "invisible character (U+200B)",

@@ -125,6 +125,13 @@ def test_what_is_brought_has_the_answers_worked_by_hand(brought: str) -> None:
     assert rldrill.read({"family": family, "given": given}).answers() == answers
 
 
+def test_the_printed_key_is_read_however_long_the_numbers_under_its_roots_are() -> None:
+    given = {"expert": ["3.14159", "6.28318"], "first": ["0.123", "5.17"], "policies": [["8.271828", "1.61803"]]}
+    exercise = rldrill.read({"family": "apprenticeship", "given": given | {"tolerance": "0.0001"}})
+    graded = exercise.grade(exercise.answers())
+    assert graded.points == graded.of
+
+
 @pytest.mark.parametrize(
     ("family", "given", "says"),
     [
