@@ -4,7 +4,8 @@ Questions write it between ``$`` signs in the sheet's own notation: ``$V(s_{t+1}
 stand for themselves, a combining hat makes an accent (``V̂``), ``_`` and ``^`` make scripts, a word of several letters
 or in quotes is set upright,
 ``3/4`` and ``{…}/{…}`` are fractions, ``√(…)`` is a root, ``∑_i`` a sum (``Σ`` is the letter), ``dθ`` a differential,
-``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
+``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions. What begins with ``!`` stays as it is in
+every notation (``rldrill.problems.notations``).
 """
 
 import re

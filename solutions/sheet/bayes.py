@@ -400,7 +400,7 @@ with evaluate(False):
         title="Maximum a posteriori: coin",
         source="Murphy 2012, section 3.3.3",
         hint="The prior counts as a − 1 cases of the one outcome and b − 1 of the other that were seen before.",
-        note="For the prior $Beta(a, b)$.",
+        note="For the prior $!Beta(a, b)$.",
         place=Place.BEYOND,
     )
     GAUSSIAN_MEAN = Formula(
@@ -623,7 +623,7 @@ with evaluate(False):
         source="MacKay 2003, section 3.2, there with a = b = 1",
         hint="Average the likelihood over the prior of θ; with whole a and b that is a quotient of factorials.",
         also=(IntegralOver(with_theta(M) * density(theta, M), theta, Thetas),),
-        note="For the prior $Beta(a, b)$.",
+        note="For the prior $!Beta(a, b)$.",
         place=Place.BEYOND,
         misread={
             BEST_FIT: (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,

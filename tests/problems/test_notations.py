@@ -66,6 +66,14 @@ def test_an_equation_is_rewritten_once_however_often_it_is_taken_up(name: str) -
             assert again == equation
 
 
+def test_the_gain_alone_is_another_letter_in_optimal_control() -> None:
+    with used("control"):
+        told = {key: unicode_text(formula.equation()) for key, formula in formulas().items()}
+    assert told["lqr-action"] == "uₜ = −Kₜxₜ"
+    assert told["ppo"].startswith("Lₜ = ")
+    assert "∇_θLᵢ(θ)" in told["maml-inner"]
+
+
 def test_what_is_one_letter_of_a_linear_system_is_told_by_what_stands_around_it() -> None:
     """R_t = 3 is a matrix of costs there, s_0 = 2 a given state; a return and a random state elsewhere."""
     with used("sutton-barto"):
