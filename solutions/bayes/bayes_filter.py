@@ -50,7 +50,7 @@ def _filter(
         weighed = (state,) if moves[-1] is _weighed else states
         first = known | {"weighed": weighed} | ({"label": '"step" 1'} if len(given.run) > 1 else {})
         belief = _moves(given.run[0], work, moves, start, first)
-        work.say(f"$p({state})$ must be ${told(share)}$:")
+        work.say(f'$p("{state}")$ must be ${told(share)}$:')
         value = work.answer(work.equate(given.left_open[0], belief[state], share, share=True))
         if len(states) == 2:
             (other,) = (name for name in states if name != state)

@@ -35,7 +35,7 @@ def solve(given: Given, work: Work) -> None:
             work.say(f"The next action, {last}, gives:")
         label = f'"step" {given.after}' if len(actions) > 1 else None
         there = work.step(PREDICT, s1=state, a=last, p=moved, motion=motion, states=states, label=label)
-        work.say(f"$p({state})$ must be ${shown(given.outcome.probability)}$:")
+        work.say(f'$p("{state}")$ must be ${shown(given.outcome.probability)}$:')
         found = work.answer(work.equate(letter, there, exact(given.outcome.probability), share=True))
         belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
         for then in before:
