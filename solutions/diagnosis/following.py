@@ -7,7 +7,7 @@ from enum import Enum
 from functools import cached_property, partial
 from itertools import pairwise, product, takewhile
 from typing import Any, TypeAlias
-from unicodedata import normalize
+from unicodedata import combining, normalize
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -44,6 +44,10 @@ _COUNTED = re.compile(r"\A\s*(?:\(\w\)|\[\w\])\.?(?:\s+|\Z)")
 _NEXT_ONE = re.compile(r"(?<=[\w.)\]])(?:[,;]| and)\s+(?=[^\W\d][\w′']*(?:\([^()]*\))?\s*[=≈←])")
 #: Four words, one after the other: what is said in a sentence need not be a step.
 _SENTENCE = re.compile(r"(?:[^\W\d_]{2,}\s+){3}[^\W\d_]{2,}")
+#: The brackets in which more than one sign is above or below a letter: V^(π₀)(cool).
+_SCRIPT = re.compile(r"[_^][({]([^(){}]*)[)}]")
+#: What stands behind a letter for a sign above it.
+_MARKS = re.compile(r"[′'’]|(?:bar|hat|tilde)(?=\W|\d|\Z)")
 #: What makes a value another one.
 _CHANGED = re.compile(r"←|⇒|→")
 #: What begins so goes on with a line that is too long for the page.
@@ -337,7 +341,8 @@ class _Follower:
         if not wanted:
             return []
         named = [(each, _names(self.search.applications[each].step)) for each in self._order(long)]
-        for name in (wanted, re.sub("[′'’]", "", wanted)):  # V' may be the new V
+        plainer = _plain_name(_SCRIPT.sub(r"\1", label)), _MARKS.sub("", wanted)  # V' may be the new V
+        for name in (wanted, *plainer):
             if steps := [each for each, names in named if name in names]:
                 return steps
         return []
@@ -441,8 +446,8 @@ def _signs(math: Math) -> str:
             return f"{_signs(above)}/{_signs(below)}"
         case Script(body, below, above):
             return _signs(body) + "".join(_signs(each) for each in (below, above) if each is not None)
-        case Fence(body, _, _):
-            return f"({_signs(body)})"
+        case Fence(body, left, right):
+            return f"{left}{_signs(body)}{right}"
         case Root(body) | Accent(body, _):
             return _signs(body)
         case Big(sign, _, _):
@@ -456,7 +461,7 @@ def _plain_name(label: str) -> str:
 
 
 def _spelled(label: str) -> str:
-    name = re.sub(r"[\s_{}^]|new", "", normalize("NFKC", label))
+    name = re.sub(r"[\s_{}^]|new", "", "".join(sign for sign in normalize("NFKD", label) if not combining(sign)))
     for spelled, letter in _WORDS.items():
         name = name.replace(spelled, letter)
     return name

@@ -277,6 +277,16 @@ def test_a_line_that_begins_with_an_equals_sign_or_a_plus_goes_on_with_the_one_b
     assert [line.text for line in told] == lines
 
 
+# Before the measurement 1·1/2 + 1/3·1/2 = 2/3 for dry: whoever forgets the second term has 1/2.
+@pytest.mark.parametrize("name", ["p̄(dry)", "p(dry)", "p_bar(dry)"])
+def test_a_sign_above_a_letter_may_be_left_out_or_spelled(name: str) -> None:
+    motion = {"go": {"dry": {"dry": 1}, "wet": {"dry": "1/3", "wet": "2/3"}}}
+    given = {"belief": {"dry": "1/2", "wet": "1/2"}, "motion": motion, "actions": ["go"]}
+    exercise = rldrill.read({"family": "bayes-predict", "given": given})
+    lines = [exercise.follow([f"{name} = {value}"]).lines[0].standing for value in ("2/3", "1/2 + 1/3*1/2", "2/7")]
+    assert lines == ["right", "right", "departs"]
+
+
 def test_of_two_equations_on_a_line_the_wrong_one_is_told(run: rldrill.Exercise) -> None:
     (told,) = run.follow(["V(cave) = 10, V(floor) = 9"]).lines
     assert (told.standing, told.step) == ("departs", 1)
