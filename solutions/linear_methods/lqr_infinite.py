@@ -392,8 +392,6 @@ def _back(work: Work, modes: _Modes, head: str, entries: list[Value]) -> AnyMatr
 
 def _in_decimals(work: Work, given: Given, regulator: Regulator) -> AnyMatrix:
     """The matrix itself, where it is rational; else to twelve decimals, with what is left over in its equation."""
-    if not all(is_rational(entry) for matrix in regulator[:5] for entry in matrix.entries()):
-        raise NoSolution("a letter may be left open only in a system that is scalar, or falls apart into scalar ones")
     found, P = stationary(regulator), given.notation.value
     sign = 1 if given.notation.costs else -1
     simple = matrices.matrix([_simple(entry) for entry in line] for line in found.tolist())
