@@ -1,11 +1,9 @@
 """An inverse in a step, as it is worked out by hand: one over a number, the adjugate over the determinant."""
 
-from typing import Any
-
 import sympy
 from sympy import Expr, Mul
 
-from rldrill.solutions.exact import is_zero, tidy
+from rldrill.solutions.exact import is_zero, tidy, to_sympy
 from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, computed
 
 
@@ -41,9 +39,9 @@ def _is_inverse(factor: Expr) -> bool:
     return bool(matrix.shape in ((1, 1), (2, 2)) and not matrix.free_symbols and not is_zero(_determinant(matrix)))
 
 
-def _determinant(matrix: sympy.ImmutableMatrix) -> Any:
+def _determinant(matrix: sympy.ImmutableMatrix) -> Expr:
     """That of a 1×1 or 2×2 matrix; sympy's own looks long for what cancels in it."""
     if matrix.rows == 1:
         return matrix[0, 0]
     (a, b), (c, d) = matrix.tolist()
-    return tidy(sympy.expand(a * d - b * c))
+    return to_sympy(tidy(sympy.expand(a * d - b * c)))

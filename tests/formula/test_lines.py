@@ -8,6 +8,7 @@ from sympy import Add, Expr, Mul, Pow, Rational, sqrt
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.formula.collecting import collected_next
 from rldrill.solutions.formula.finding import with_number
+from rldrill.solutions.formula.inverting import inverted
 from rldrill.solutions.formula.lines import lines_between
 from rldrill.solutions.formula.nested import choices_first, inner_brackets_first
 from rldrill.solutions.formula.nodes.choices import Greatest
@@ -179,3 +180,10 @@ def test_a_bracket_that_comes_to_minus_one_above_the_line_turns_the_sign() -> No
     step = times(-1, 2, 3, total(Slot(sympy.S.Zero), -1), power(power(total(1, 2), 2), -1))
     assert "6/9" in map(shown, lines_between(step, own=False))
     assert "−6/9" not in map(shown, lines_between(step, own=False))
+
+
+def test_the_determinant_of_an_inverse_may_lose_its_roots() -> None:
+    # √2·√8 − 1·1 = 3
+    root = sympy.sqrt(2)
+    matrix = MatrixLeaf([[root, 1], [1, 2 * root]])
+    assert "1/3" in shown(inverted(times(power(matrix, -1), MatrixLeaf([[1], [0]]))))
