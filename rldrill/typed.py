@@ -78,7 +78,7 @@ def _scalar(value: object, what: str) -> str:
         case Expr():
             return str(value)
         case _ if hasattr(value, "_sympy_"):  # what solve() gives with an open letter
-            return str(sympify(value))
+            return str(sympify(value, strict=True))
         case Rational():
             try:
                 return str(value)
