@@ -1,6 +1,7 @@
 """Outcomes that say of themselves whether the episode ends, as the transitions of a model with its terminal states."""
 
 from collections.abc import Sequence
+from itertools import chain, count
 from typing import Any, NamedTuple
 
 from rldrill.problems.grids import OVER
@@ -31,6 +32,8 @@ def model(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     while more:
         lived_in |= more
         more = {each.after for each in possible if not each.ends and each.state in lived_in} - lived_in
-    told = [each._replace(after=OVER) if each.ends and each.after in lived_in else each for each in possible]
+    called = {name for each in outcomes for name in (each.state, each.after)}
+    over = next(name for name in chain([OVER], (f"{OVER}_{number}" for number in count(2))) if name not in called)
+    told = [each._replace(after=over) if each.ends and each.after in lived_in else each for each in possible]
     terminal = dict.fromkeys(each.after for each in told if each.ends)
     return {"transitions": [list(each[:-1]) for each in told if each.state not in terminal], "terminal": list(terminal)}

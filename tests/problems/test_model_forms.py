@@ -224,6 +224,16 @@ def test_a_state_is_left_however_long_the_way_to_it_is() -> None:
     assert set(model.terminal) == {"Z", "over"}
 
 
+def test_a_state_that_is_called_over_is_no_end() -> None:
+    """B is entered by what ends the episode and by what does not, and left for "over", whence 100 are earned."""
+    table = {"A": {0: [(1, "B", 1, True)]}, "C": {0: [(1, "B", 0, False)]}, "B": {0: [(1, "over", 5, False)]},
+             "over": {0: [(1, "end", 100, True)]}}  # fmt: skip
+    model = Model.model_validate(from_table(table))
+    assert outcomes(model, "A", "0") == {"over_2": (1, 1)}
+    assert outcomes(model, "over", "0") == {"end": (1, 100)}
+    assert set(model.terminal) == {"end", "over_2"}
+
+
 def test_what_cannot_happen_ends_nothing() -> None:
     table = {0: {0: [(1.0, 1, 0.0, False), (0.0, 1, 0.0, True)]}, 1: {0: [(1.0, 0, 7.0, False)]}}
     assert outcomes(Model.model_validate(from_table(table)), "1", "0") == {"0": (1, 7)}
