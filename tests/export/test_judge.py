@@ -120,7 +120,8 @@ def test_the_page_judges_as_the_library_does(identity: str) -> None:
 @pytest.mark.parametrize("name", rldrill.families())
 def test_the_page_reads_every_answer_that_it_holds(name: str) -> None:
     """Right and wrong ones: a key that it cannot read is a part that nothing is said of, whatever is typed."""
-    for level in family(name).levels:
+    easiest, *_, hardest = family(name).levels
+    for level in (easiest, hardest):
         exercise = rldrill.draw(name, level, 11)
         for part in exercise.parts:
             asked = task(exercise, part)

@@ -265,6 +265,6 @@ def test_no_two_actions_of_a_softmax_policy_are_as_probable_where_x_plays_a_part
 def test_no_state_is_on_the_edge_of_a_tent_and_many_are_beyond_one() -> None:
     # On the edge 1 − d/b is 0 by itself, so that nobody sees who forgets the maximum with 0.
     for level in (1, 2, 3):
-        workings = [str(rldrill.draw("piecewise-linear-rbf", level, seed).working()) for seed in range(60)]
+        workings = [str(rldrill.draw("piecewise-linear-rbf", level, seed).working()) for seed in range(30)]
         assert not any("max(0, 0)" in working for working in workings)
-        assert sum("max(0, −" in working for working in workings) > 5
+        assert sum("max(0, −" in working for working in workings) > 3
