@@ -173,17 +173,18 @@ def _is_rounded(value: Value, key: Value) -> bool:
     if ours.keys() != theirs.keys():
         return False
     below = [place for place in theirs if place.below]
-    written, fractions = fmpq(1), list(filter(is_rational, theirs.values()))
+    scales, fractions = {one: {fmpq(1)} for one in below}, list(filter(is_rational, theirs.values()))
     if len(below) > 1 and len(fractions) == len(theirs):  # a quotient is written in whole numbers
         written = fmpq(lcm(*(int(number.q) for number in fractions)))
         written /= gcd(*(int((number * written).p) for number in fractions))
+        scales = {one: {fmpq(1), theirs[one] * written} for one in below}
     return any(  # whichever number below the line is taken to be as it is
         all(
             within(ours[each] / ours[one] * scale, here := theirs[each] / theirs[one] * scale, tolerance(here))
             for each in theirs
         )
         for one in below
-        for scale in dict.fromkeys((fmpq(1), theirs[one] * written))
+        for scale in scales[one]
     )
 
 

@@ -534,3 +534,10 @@ def test_every_number_of_a_quotient_has_three_digits_as_it_is_written(typed: str
 def test_a_number_that_is_not_written_gives_no_room(typed: str) -> None:
     for key in ("x/3 + 1/2", "2/(1 - x)", "2x + 3", "2/x"):
         assert not is_right(read_number(typed, ["x"]).value, read_number(key, ["x"]).value)
+
+
+def test_a_number_below_the_line_alone_gives_no_room() -> None:
+    # 1/3 to three digits is 0.333, also where it stands as 3γ below the line
+    key = read_number("x/(3 gamma)", ["x", "gamma"]).value
+    for typed, right in (("0.333 x/gamma", True), ("0.334 x/gamma", False)):
+        assert is_right(read_number(typed, ["x", "gamma"]).value, key) is right
