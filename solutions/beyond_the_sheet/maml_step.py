@@ -11,7 +11,7 @@ from rldrill.problems.exact import needed, shown
 from rldrill.solutions.exact import ONE, ZERO, exact, parameters
 from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.formula.typesetting import typeset
-from rldrill.solutions.multiplied_out import term_by_term
+from rldrill.solutions.multiplied_out import side_by_side
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
@@ -76,7 +76,7 @@ class _MultipliedOut(Step):
             terms = ONE - self.known["alpha"] * curvature, curvature, adapted - self.known["optimum"][task]
             factors.append(sympy.Mul(*(leaf(term) for term in terms if term != 1), evaluate=False))
             products.append(terms[0] * terms[1] * terms[2])
-        lines = map(self._down, (sympy.Add(*factors, evaluate=False), term_by_term(products)))
+        lines = map(self._down, (sympy.Add(*factors, evaluate=False), side_by_side(products)))
         rights = (plain.rights[0], *map(typeset, lines), *plain.rights[1:])
         return Equation(plain.left, rights, ("←", *["="] * (len(rights) - 1)))
 

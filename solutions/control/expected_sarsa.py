@@ -7,7 +7,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import answer_along, oracle_along
 from rldrill.solutions.exact import ONE, ZERO, Value, exact, parameters, to_sympy
 from rldrill.solutions.greedy import best_actions, epsilon_greedy
-from rldrill.solutions.multiplied_out import term_by_term
+from rldrill.solutions.multiplied_out import side_by_side
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
@@ -45,7 +45,7 @@ def _tell_mean(work: Work, state: str, chances: dict[str, Value], values: dict[s
         work.say(f"Under the policy the action values in {state} have this mean:")
         mean = sum((chances[action] * values[action] for action in values), ZERO)
         products = (chances[action] * values[action] for action in values)
-        apart = (term_by_term(products),) if parameters(mean) else ()
+        apart = (side_by_side(products),) if parameters(mean) else ()
         work.lines.append(Equality(Add(*terms, evaluate=False), (*apart, mean)))
 
 

@@ -8,7 +8,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, exact, parameters
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.typesetting import typeset
-from rldrill.solutions.multiplied_out import term_by_term
+from rldrill.solutions.multiplied_out import side_by_side
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
@@ -88,7 +88,7 @@ class _MultipliedOut(Step):
         plain = super()._written()
         kept = prod([ONE - self.known["alpha"]] * self.known["n"], start=ONE)
         returns = (self.known["w"][i] * G for i, G in self.known["G"].items())
-        apart = typeset(term_by_term((kept * self.known["Vn"][0], *returns)))
+        apart = typeset(side_by_side((kept * self.known["Vn"][0], *returns)))
         return Equation(plain.left, (*plain.rights[:-1], apart, plain.rights[-1]), (*plain.signs, "="))
 
 
