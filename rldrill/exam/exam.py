@@ -81,6 +81,10 @@ class Version(Struct, frozen=True):
     person: Person | None = None
     partial: tuple[Mapping[str, str], ...] = ()
 
+    def rules(self, index: int) -> Mapping[str, str]:
+        """The rules for wrong entries that parts of a problem have of their own; by its place, from 0."""
+        return self.partial[index] if self.partial else {}
+
     @property
     def points(self) -> int:
         """What the whole version earns."""

@@ -62,9 +62,8 @@ def written(data: Mapping[str, Any]) -> bytes:
 
 def _version(version: Version) -> dict[str, Any]:
     whose = {} if version.person is None else {"person": asdict(version.person)}
-    rules = version.partial or ({},) * len(version.exercises)
-    numbered = enumerate(zip(version.slots, version.exercises, rules, strict=True), 1)
-    problems = [_problem(number, *each) for number, each in numbered]
+    placed = enumerate(zip(version.slots, version.exercises, strict=True))
+    problems = [_problem(index + 1, *each, version.rules(index)) for index, each in placed]
     return {"code": version.code, **whose, "points": version.points, "minutes": version.minutes, "problems": problems}
 
 

@@ -84,7 +84,7 @@ def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Ce
 
 def all_or_nothing(exam: Exam, version: Version, index: int) -> frozenset[str]:
     """The labels of the parts that earn nothing for a wrong entry, of a problem by its place in the version, from 0."""
-    rules = version.partial[index] if version.partial else {}
+    rules = version.rules(index)
     return frozenset(
         part.label for part in version.exercises[index].parts if rules.get(part.label, exam.partial) == "all"
     )

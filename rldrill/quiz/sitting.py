@@ -208,8 +208,7 @@ class Sitting(Struct):
         )
 
     def _judging(self, number: int) -> Judging:
-        rules = self.version.partial[number] if self.version.partial else {}
-        return Judging(self.version.exercises[number], Rules().of(self.exam), rules)
+        return Judging(self.version.exercises[number], Rules().of(self.exam), self.version.rules(number))
 
 
 def version_of(exam: Exam, code: str | None) -> Version:
