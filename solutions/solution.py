@@ -81,9 +81,10 @@ def _made(family: Family, read: tuple[Formula, ...]) -> tuple[Misconception, ...
     return tuple([each for each in solver(family).misconceptions if each.is_slip or each in in_reading])
 
 
-#: What may also be a reward; where its complement is given, too, it is a probability.
-#: The fields whose numbers lie between 0 and 1, and letters that are such numbers wherever they stand.
+#: The fields whose numbers lie between 0 and 1.
 _SHARES = ("gamma", "alpha", "lam", "epsilon")
+#: Letters that are such numbers wherever they stand; p and q may also be rewards: where their complement is given, too,
+#: they are probabilities.
 _RANGED = {*_SHARES, *SHARES} - {"p", "q"}
 #: Of a longer working no mistakes are made: nobody does it by hand, and each takes as long as the solution.
 _MOST_LINES = 2000
