@@ -64,7 +64,7 @@ class Diagnosis(Struct, frozen=True):
     """What an answer comes from.
 
     Args:
-        kind: ``right``, ``unreadable`` or ``unexplained``; ``listed`` for a typical mistake of the family; else the
+        kind: ``right``, ``unreadable`` or ``unexplained``; ``listed`` for a typical mistake; else the
             name of what was done, such as ``factor-left-out``.
         sentence: one sentence to the person.
         place: where it was done; None where it was no step.
@@ -72,6 +72,7 @@ class Diagnosis(Struct, frozen=True):
         confidence: how sure this is, 0 to 1; what it shares with the alternatives is how sure it is one of them.
         wrong: the step as it was taken, or the formula as it was read everywhere; ``right`` as it should be. What
             differs between the two is what ``rldrill.render.differences`` finds.
+        mistake: the name of a typical mistake, ``forgot-gamma``; None for all else.
     """
 
     kind: str
@@ -81,6 +82,7 @@ class Diagnosis(Struct, frozen=True):
     confidence: float = 0.0
     wrong: Equation | None = None
     right: Equation | None = None
+    mistake: str | None = None
 
     def __repr__(self) -> str:
         return f"<Diagnosis {self.kind}: {self.sentence}>"
@@ -107,6 +109,7 @@ class Diagnosis(Struct, frozen=True):
         where = None if self.place is None else {"formula": self.place.formula, "step": self.place.step}
         return {
             "kind": self.kind,
+            "mistake": self.mistake,
             "sentence": self.sentence,
             "place": where,
             "confidence": self.confidence,
@@ -319,7 +322,7 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
     where = None if formula is None else Place(formula.key, None)
     wrong, right = misread_lines(solution, first) or (None, None)
     confidence = 1.0 if len(verdict.told) == 1 else 0.5
-    return Diagnosis("listed", verdict.says, where, (), confidence, wrong, right)
+    return Diagnosis("listed", verdict.says, where, (), confidence, wrong, right, first.name)
 
 
 def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
@@ -329,7 +332,7 @@ def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
     )
     said = _causes_told(causes, applications)
     said = f"It{said[2:]}" if causes[0].mistake is None else said  # α and γ stay small
-    return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
+    return replace(first, sentence=said, alternatives=tuple(others))
 
 
 def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -> str:
@@ -354,7 +357,8 @@ def _stated(cause: Cause, applications: Sequence[Application]) -> str:
 
 def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: float) -> Diagnosis:
     if cause.mistake is not None:
-        return Diagnosis("listed", _stated(cause, applications), _place(cause), (), confidence)
+        said = _stated(cause, applications)
+        return Diagnosis("listed", said, _place(cause), confidence=confidence, mistake=cause.mistake.name)
     said = f"It looks as if {_sentence(saying(cause, applications))}."
     wrong, right = _compared(cause) or (None, None)
     return Diagnosis(cause.kind, said, _place(cause), (), confidence, wrong, right)

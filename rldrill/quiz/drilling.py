@@ -18,6 +18,7 @@ from rldrill.quiz.mistakes import called
 from rldrill.quiz.planning import skills
 from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.clock import Clock
+from rldrill.solutions.sheet import formulas
 from rldrill.solutions.solution import solver
 
 #: What the diagnosis finds in any family, beside the mistakes that families list.
@@ -83,8 +84,10 @@ def drill(text: str, attempts: Sequence[Attempt], names: Sequence[str] = (), lev
         UsageError: there is no such mistake, or none of these.
     """
     listed, wanted = _listed(), chosen(tuple(names))
-    name = _named(text, {*_KINDS, *(name for mistakes in listed.values() for name in mistakes)})
-    knowing = {family for family in wanted if name in _KINDS or name in listed[family]}
+    everywhere = _KINDS | _stated().difference(*listed.values())  # no family lists these
+    name = _named(text, everywhere.union(*listed.values()))
+    own = {each.family for each in attempts if name in each.misconceptions}
+    knowing = {family for family in wanted if name in everywhere or name in listed[family] or family in own}
     known = [skill for skill in skills(knowing) if level in (None, skill.level)]
     known.sort(key=lambda skill: name not in listed[skill.family])
     if not known:
@@ -105,6 +108,11 @@ def _listed() -> Mapping[str, frozenset[str]]:
     }
 
 
+def _stated() -> frozenset[str]:
+    """The names of the mistakes that are stated beside formulas, whether a family lists them or not."""
+    return frozenset(mistake.name for formula in formulas().values() for mistake in formula.misread)
+
+
 def _named(text: str, names: Iterable[str]) -> str:
     """The mistake of that name, or called so."""
     wanted = _plain(text)
@@ -122,7 +130,12 @@ def _plain(text: str) -> str:
 
 def _can_be_made(name: str, exercise: Exercise) -> bool:
     """Whether a mistake gives a wrong answer here; what a family lists does wherever it applies, by how it draws."""
-    if any(mistake.name == name for mistake, _ in exercise.solution.mistakes):
+    solution = exercise.solution
+    if any(mistake.name == name for mistake, _ in solution.mistakes):
+        return True
+    stated = exercise.diagnosing.search({}).stated()  # beside a formula that is read here, though not in the list
+    made = (each.answers for each in stated if each.cause.mistake and each.cause.mistake.name == name)
+    if any(map(solution.tells_apart, made)):
         return True
     return name in _KINDS and any(_spoils(name, exercise, part.label) for part in exercise.parts)
 

@@ -390,7 +390,7 @@ class Screen:
             self._signed(("?", "bold yellow"), words((_INCOMPLETE, "bold yellow"), asked))
             return
         diagnosis = record.diagnosis(part)
-        explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
+        explained = diagnosis is not None and diagnosis.explains and not verdict.told
         outcome = Outcome.WRONG if explained else verdict.outcome
         says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
         says = by_name(says, part.part.kind)

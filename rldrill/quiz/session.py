@@ -134,6 +134,8 @@ class Record(Struct):
         found = self.diagnosis(current)
         if found is None or not found.explains:
             return ()
+        if found.mistake is not None:
+            return (Mistake(found.mistake, found.sentence),)
         title = self.exercise.problem.family.title
         return (Mistake(found.kind, f"{title}: {called(found.kind)}."),)
 

@@ -115,3 +115,10 @@ def test_the_end_counts_the_problems_in_which_the_mistake_was_made() -> None:
 def test_the_end_tells_the_command_that_drills_the_mistake_made_most() -> None:
     assert "rldrill quiz --mistake first-reward-discounted\n" in said_at_the_end("2", drilled="")
     assert "--mistake" not in said_at_the_end("4", drilled="")
+
+
+def test_a_mistake_that_a_family_does_not_list_is_drilled_where_it_was_made() -> None:
+    history = [attempt(1, "piecewise-linear-rbf", 2, "sum-of-differences")]
+    found = drill("sum-of-differences", history, ["piecewise-linear-rbf"])
+    assert found.skills == (Skill("piecewise-linear-rbf", 2),)
+    assert next(found.exercises(1)).problem.family.name == "piecewise-linear-rbf"

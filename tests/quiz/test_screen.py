@@ -93,3 +93,19 @@ def test_a_variant_is_the_next_seed_of_its_level_or_for_ones_own_problem_one_of_
     assert str(variant(rldrill.load("return/1/7")).id).startswith("return/1/8@")
     assert str(variant(rldrill.draw("return", 3, MAX_SEED - 1)).id).startswith("return/3/0@")
     assert str(variant(EXERCISE).id).startswith("return/2/0@")
+
+
+#: In (2, 2) the centre (5, 6) is √(3² + 4²) = 5 away, the others 4 and 6: the features are 3/8, 1/2 and 1/4.
+FEATURES = rldrill.read({"family": "piecewise-linear-rbf", "given": {
+    "position": [2, 2], "centres": [[5, 6], [2, 6], [8, 2]], "width": 8, "theta": [-1, -2, 2]}})  # fmt: skip
+
+
+def test_a_typical_mistake_that_the_family_does_not_list_is_told_and_goes_by_its_name(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("rldrill.diagnosis.AT_THE_PROMPT", None)  # however busy the machine is
+    session = Session(1)
+    lines = printed(session, "1/8, 1/2, 1/4", "", of=FEATURES)  # 1 − (3 + 4)/8
+    assert "the root of the sum of squares, not the sum of the differences." in " ".join("\n".join(lines).split())
+    assert [each.name for made in session.parts[0].made for each in made] == ["sum-of-differences"]
+    assert any("rldrill quiz --mistake sum-of-differences" in line for line in lines)
