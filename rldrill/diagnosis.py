@@ -294,7 +294,8 @@ class Diagnosing:
         self.finish()
         typed = self._typed(label, text)
         clock = Clock(seconds)
-        gone_on = [earlier] if earlier and self.solution.following(earlier) else []  # from some nothing follows
+        leads = bool(earlier) and len(self.solution.following(earlier or {})) == len(self.solution.answers)
+        gone_on = [earlier] if leads else []  # from some answers not all follows
         for carried in ({}, *gone_on):
             with self._one:
                 found = explained(self.outcomes(label, carried), typed, clock, settled)

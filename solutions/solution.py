@@ -2,6 +2,7 @@
 
 import importlib.util
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cache, cached_property, lru_cache
 from types import ModuleType
 from typing import Any
@@ -188,11 +189,11 @@ class Solution(Struct, frozen=True, dict=True):
         return None if hidden else made
 
     def following(self, carried: Mapping[str, Any]) -> Mapping[str, Any]:
-        """The answers of somebody who goes on correctly from own answers to earlier parts."""
-        try:
-            return run(self.problem, carried=carried).answers
-        except NoSolution:
-            return {}  # nothing follows from what was typed
+        """The answers of somebody who goes on correctly from own answers to earlier parts, as far as they lead."""
+        work = Work(carried=carried)
+        with suppress(NoSolution):  # nothing more follows from what was typed
+            solver(self.problem.family).solve(self.problem.given, work)
+        return work.answers
 
 
 def _differ(right: Mapping[str, Any], wrong: Mapping[str, Any]) -> bool:

@@ -541,3 +541,14 @@ def test_a_number_below_the_line_alone_gives_no_room() -> None:
     key = read_number("x/(3 gamma)", ["x", "gamma"]).value
     for typed, right in (("0.333 x/gamma", True), ("0.334 x/gamma", False)):
         assert is_right(read_number(typed, ["x", "gamma"]).value, key) is right
+
+
+def test_what_follows_before_a_part_that_has_no_answer_then_is_right() -> None:
+    exercise = rldrill.read({"family": "apprenticeship", "given": {
+        "expert": [6, 0], "first": [8, 6], "policies": [[2, 0]],
+        "candidates": {"A": [4, 3], "B": [5, 3], "C": [8, 3]}, "projected": False}})  # fmt: skip
+    # From (6, 4) the weights are (6, 0) − (6, 4); with them all three policies are worth −12, so none is the next.
+    graded = exercise.grade({"a": "6, 4", "b": "0, -4", "c": "A"})
+    assert [part.verdict and part.verdict.outcome for part in graded.parts[:3]] == [
+        Outcome.WRONG, Outcome.FOLLOW_THROUGH, Outcome.WRONG,
+    ]  # fmt: skip
