@@ -237,7 +237,11 @@ class Family(Struct, frozen=True, dict=True):
         try:
             return self._validated(given, note)
         except ValidationError as error:
-            fault, meant = error, settled(given, self.schema())  # a schema takes a while, so only where it is needed
+            fault = error
+        try:
+            meant = settled(given, self.schema())  # a schema takes a while, so only where it is needed
+        except ValueError as error:
+            raise FileError(str(error)) from None
         if meant != given:
             try:
                 return self._validated(meant, note)

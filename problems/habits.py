@@ -34,6 +34,9 @@ def settled(given: Any, schema: Schema) -> Any:
     Args:
         given: what a file holds.
         schema: the JSON Schema of the givens.
+
+    Raises:
+        ValueError: rows that are one text are not equally long; the sentence names the field.
     """
     return _settled(given, [schema], schema.get("$defs", {}))
 
@@ -138,7 +141,10 @@ def _table(value: Mapping[str, Any], forms: Sequence[Schema], parts: Mapping[str
         meant = ALSO.get(str(key), key)
         name = meant if meant in fields and meant not in {*value, *found} and key not in fields else key
         known = [form.get("properties", {}).get(name, form.get("additionalProperties")) for form in forms]
-        found[name] = _settled(inner, [each for each in known if isinstance(each, dict)], parts)
+        try:
+            found[name] = _settled(inner, [each for each in known if isinstance(each, dict)], parts)
+        except ValueError as error:
+            raise ValueError(f"{key}: {error}") from None
     return found
 
 

@@ -18,10 +18,17 @@ _ALSO = {
 
 
 def rows_of(text: str, names: Sequence[str]) -> list[list[str]] | None:
-    """The rows of a text, whose entries stand in the order of the names, or of its first line; else None."""
+    """The rows of a text, whose entries stand in the order of the names, or of its first line; else None.
+
+    Raises:
+        ValueError: a row has more or fewer entries than the first line has names.
+    """
     lines = _lines(text)
     if lines and len(head := called(lines[0], names)) == len(names) > 0:
-        return [[row[head.index(name)] for name in names] for row in lines[1:] if len(row) == len(head)] or None
+        for number, row in enumerate(lines[1:], 2):
+            if len(row) != len(head):
+                raise ValueError(f"row {number} has {len(row)} entries, the header has {len(head)}; make them equal")
+        return [[row[head.index(name)] for name in names] for row in lines[1:]] or None
     headed = [not any(map(_NUMBER.match, row)) for row in lines] == [True] + [False] * (len(lines) - 1)
     return lines if lines and not headed and all(len(row) == len(names) for row in lines) else None
 

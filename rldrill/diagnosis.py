@@ -294,9 +294,10 @@ class Diagnosing:
         self.finish()
         typed = self._typed(label, text)
         clock = Clock(seconds)
-        leads = bool(earlier) and len(self.solution.following(earlier or {})) == len(self.solution.answers)
-        gone_on = [earlier] if leads else []  # from some answers not all follows
-        for carried in ({}, *gone_on):
+        gone_on: list[dict[str, Any]] = [{}]
+        if earlier and len(self.solution.following(earlier)) == len(self.solution.answers):  # from some not all follows
+            gone_on.append(dict(earlier))
+        for carried in gone_on:
             with self._one:
                 found = explained(self.outcomes(label, carried), typed, clock, settled)
             if found.causes:

@@ -17,6 +17,7 @@ from typer.testing import CliRunner
 
 from rldrill.commands import verify as verify_command
 from rldrill.grading.answers_file import read_answers
+from rldrill.grading.marking import Rules
 from rldrill.grading.report import MarkedPart, Report, Score
 from rldrill.grading.verification import Settings
 from rldrill.grading.verification import verify as verify_with
@@ -398,6 +399,15 @@ FAULTY = [
     ("a.jsonl", '{"problem": "td.toml", "answer": 1, "answer": 2}', "line 1: the key 'answer' stands twice"),
     ("a.txt", "1", "must end in .toml, .json, .csv, .jsonl or .ndjson"),
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize("answers", [",5", "5,", "5, ", " ,5,"])
+@pytest.mark.parametrize("repeated", ["", "first", "last"])
+def test_a_blank_answer_takes_no_place(folder: Path, answers: str, repeated: str) -> None:
+    lines = "".join(f"A,td.toml,a,{answer}\n" for answer in answers.split(","))
+    path = write(folder, "a.csv", HEAD + lines)
+    report = verify_with([path], Settings(allow_files=True, rules=Rules(repeated=repeated)))
+    assert [each.typed for each in rows(report)] == ["5"]
 
 
 @pytest.mark.parametrize(("name", "content", "fragment"), FAULTY)

@@ -166,7 +166,9 @@ class Desk:
             fault = f"there is no part {entry.part[:20]!r}" if label else "the part is missing"
             return f"{fault}; {name} has {', '.join(labels)}."
         before = taken.get(label)
-        if before is None or self._rules.repeated == "last":
+        if before is not None and not entry.text.strip():
+            return ""
+        if before is None or not before.text.strip() or self._rules.repeated == "last":
             taken[label] = entry
         elif not self._rules.repeated:
             whose = f" by {entry.student}" if entry.student else ""

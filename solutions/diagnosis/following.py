@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from enum import Enum
 from functools import cached_property, partial
-from itertools import pairwise, product, takewhile
+from itertools import pairwise, product, starmap
 from typing import Any, TypeAlias
 from unicodedata import combining, normalize
 
@@ -50,8 +50,12 @@ _SCRIPT = re.compile(r"[_^][({]([^(){}]*)[)}]")
 _MARKS = re.compile(r"[′'’]|(?:bar|hat|tilde)(?=\W|\d|\Z)")
 #: What makes a value another one.
 _CHANGED = re.compile(r"←|⇒|→")
-#: What begins so goes on with a line that is too long for the page.
-_MORE = "+ "
+#: What begins or ends so goes on with a line that is too long for the page, or is gone on with.
+_MORE, _ENDS = ("+ ", "- ", "− "), ("+", "-", "−", "*", "·", "×", "/", "(", ",")
+#: What stands before each item of a list.
+_BULLETS = ("- ", "− ", "– ", "+ ", "* ", "• ")
+#: What gives a value to a name has none of its own before it: "- V(cool) = 2" is an item of a list.
+_ITEM = re.compile(r"[-+−] *[^\W\d][\w′']*(?:\([^()]*\))? *[=≈←:]")
 #: A line to which others are joined is not longer.
 _LONGEST = 4000
 #: One row of a matrix that is written over several lines.
@@ -103,6 +107,12 @@ def follow(search: Search, texts: Sequence[str]) -> tuple[Line, ...]:
     return tuple(_Follower(search).lines(texts))
 
 
+def _goes_on(before: str, text: str) -> bool:
+    """Whether a line belongs to the one before."""
+    more = text.startswith(_MORE) and not _ITEM.match(text)
+    return more or (before.endswith(_ENDS) and not text.startswith("="))
+
+
 class _Follower:
     def __init__(self, search: Search) -> None:
         self.search = search
@@ -122,15 +132,17 @@ class _Follower:
         self.between = {each.number: list(_inner(each)) for each in search.applications}
 
     def lines(self, texts: Sequence[str]) -> Iterator[Line]:
-        stripped = [text for text in map(str.strip, texts) if text]
+        typed = [text for text in map(str.strip, texts) if text]
+        listed = len(typed) > 1 and any(all(text.startswith(sign) for text in typed) for sign in _BULLETS)
+        stripped = [text[1:].strip() for text in typed] if listed else typed
+        goes_on = [False, *starmap(_goes_on, pairwise(stripped))]
         whole = ""
         for number, text in enumerate(stripped):
-            if not whole or not text.startswith(_MORE):
+            if not goes_on[number]:
                 before = f"{whole} " if text.startswith("=") and len(whole) < _LONGEST else ""
-                whole = before + " ".join(
-                    [text, *takewhile(lambda next_: next_.startswith(_MORE), stripped[number + 1 :])]
-                )
-            yield replace(self._line(whole), text=text)
+                end = next((later for later in range(number + 1, len(stripped)) if not goes_on[later]), len(stripped))
+                whole = before + " ".join(stripped[number:end])
+            yield replace(self._line(whole), text=typed[number])
 
     def _line(self, text: str) -> Line:
         """A line, by the first of its equations that goes wrong."""

@@ -290,3 +290,21 @@ def test_a_sign_above_a_letter_may_be_left_out_or_spelled(name: str) -> None:
 def test_of_two_equations_on_a_line_the_wrong_one_is_told(run: rldrill.Exercise) -> None:
     (told,) = run.follow(["V(cave) = 10, V(floor) = 9"]).lines
     assert (told.standing, told.step) == ("departs", 1)
+
+
+#: R₀ = 3 + 1/2·4 + 1/4·(−8) = 3 + 2 − 2 = 3.
+LONG_SUM = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": [3, 4, -8], "time": 0}})
+
+
+@pytest.mark.parametrize("lines", [
+    ["R0 = 3 + 1/2*4", "- 1/4*8", "= 3"], ["R0 = 3", "+ 1/2*4", "− 1/4*8", "= 3"], ["R0 = 3 + 1/2*4 +", "1/4*(-8) = 3"],
+    ["- R0 = 3 + 1/2*4 + 1/4*(-8)", "- R0 = 3 + 2 - 2", "- R0 = 3"],
+    ["+ R0 = 3 + 2 - 2", "+ 3 + 2 - 2 = 3"],
+])  # fmt: skip
+def test_a_sum_goes_on_in_the_next_line_and_a_list_has_items(lines: list[str]) -> None:
+    assert [line.standing for line in LONG_SUM.follow(lines).lines] == ["right"] * len(lines)
+
+
+def test_a_sum_that_goes_on_wrongly_is_found_there() -> None:
+    standings = [line.standing for line in LONG_SUM.follow(["R0 = 3 + 1/2*4", "- 1/4*8", "= 4"]).lines]
+    assert standings == ["right", "right", "miscalculated"]

@@ -26,6 +26,11 @@ def test_rows(text: str, rows: list[list[str]] | None) -> None:
     assert rows_of(text, ["arm", "reward"]) == rows
 
 
+def test_no_row_is_left_out() -> None:
+    with pytest.raises(ValueError, match="row 3 has 3 entries, the header has 2; make them equal"):
+        rows_of("arm reward\na 1\nb 2 toll\nc 3", ["arm", "reward"])
+
+
 def test_tables_need_their_names() -> None:
     assert tables_of("a d\n1 2\n3 4", ["d", "a", "theta"]) == [{"a": "1", "d": "2"}, {"a": "3", "d": "4"}]
     assert tables_of("1 2\n3 4", ["d", "a"]) is None
