@@ -15,6 +15,7 @@ from rldrill.problems.document import Equation
 from rldrill.problems.notations import in_notation
 from rldrill.render.differences import differences, marked
 from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.sentences import in_letters
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of, read_answer
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.text import Reading
@@ -351,10 +352,11 @@ def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -
 def _stated(cause: Cause, applications: Sequence[Application]) -> str:
     """What is said of a mistake, and where it was made, if it was made in one step alone of several."""
     assert cause.mistake is not None
+    says = in_letters(cause.mistake.says)
     alike = [each for each in applications if each.formula is cause.formula]
     if cause.application is None or len(alike) < 2:
-        return cause.mistake.says
-    return f"{cause.mistake.says} It seems to have gone wrong{_sentence(place(cause.application, applications))}."
+        return says
+    return f"{says} It seems to have gone wrong{_sentence(place(cause.application, applications))}."
 
 
 def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: float) -> Diagnosis:

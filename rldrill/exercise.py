@@ -24,6 +24,7 @@ from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
 from rldrill.render.markdown import markdown, markdown_text
 from rldrill.render.mathematics.unicode import inline, unicode
 from rldrill.render.page import Page
+from rldrill.render.sentences import in_letters
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
 from rldrill.solutions.abridging import abridged
@@ -138,7 +139,7 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
         if answer is None:
             raise UsageError("The answer is missing; give a text or a number.")
         text = typed(answer, "The answer")
-        return self.diagnosing.unmasked(label, text, judge(self.solution, label, text))
+        return self.diagnosing.unmasked(label, text, self._said(judge(self.solution, label, text)))
 
     def grade(self, answers: Mapping[str, object]) -> Graded:
         """Judge a whole submission; a later part is also judged with the person's own answers to earlier parts.
@@ -155,13 +156,19 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
             self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
         }
         graded = grade(self.solution, texts, self.worth)
-        verdicts = {part.part: part.verdict for part in graded.parts}
+        verdicts = {part.part: part.verdict and self._said(part.verdict) for part in graded.parts}
         return Graded(
             tuple(
                 part if part.verdict is None else replace(part, verdict=self.unmasked(part.part, part.typed, verdicts))
                 for part in graded.parts
             )
         )
+
+    def _said(self, verdict: Verdict) -> Verdict:
+        """A verdict; what is said of a typical mistake names quantities as the notation in use writes them."""
+        if not verdict.told:
+            return verdict
+        return replace(verdict, says=self.problem.written(lambda: in_letters(verdict.says)))
 
     def unmasked(self, label: str, text: str, verdicts: Mapping[str, Verdict | None]) -> Verdict:
         """The verdict on a part, among those on others: what is close to the key by accident is wrong.

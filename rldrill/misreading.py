@@ -1,9 +1,15 @@
-"""How a mistake reads a formula, marked where it differs."""
+"""What is said of a mistake, and how it reads a formula, marked where it differs."""
 
 from rldrill.problems.document import Equation
 from rldrill.render.differences import marked
+from rldrill.render.sentences import in_letters
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
+
+
+def said(solution: Solution, mistake: Misconception) -> str:
+    """What is said of a mistake, quantities named in the letters that the problem is written in."""
+    return solution.problem.written(lambda: in_letters(mistake.says))
 
 
 def misreading(solution: Solution, mistake: Misconception) -> Equation | None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
-from rldrill.misreading import misreading
+from rldrill.misreading import misreading, said
 from rldrill.print.exam_page import label
 from rldrill.print.possible import is_possible
 from rldrill.print.words import Words, words, written_points
@@ -22,7 +22,7 @@ from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.exact import NotReal
 from rldrill.solutions.formula.formula import Misconception
 
-_NAMED = re.compile(r"\b([VQ])\^?([π*])((?:\((?:[^()]|\([^()]*\))*\))?)(?!\w)")
+_NAMED = re.compile(r"\b([VQ]\^?|[vq]_)([π*])((?:\((?:[^()]|\([^()]*\))*\))?)(?!\w)")
 #: So many typical wrong answers to a part are told.
 _MISTAKES = 5
 
@@ -64,15 +64,17 @@ def _earned(blocks: tuple[Block, ...], points: int) -> str:
 
 def _mistakes(exercise: Exercise, part: Part, told: Words) -> str:
     rows = [
-        f"([{given}], [{text(with_mathematics(mistake.says))}{_read(exercise, mistake)}])"
+        f"([{given}], [{text(with_mathematics(said(exercise.solution, mistake)))}{_read(exercise, mistake)}])"
         for given, mistake in _wrong(exercise, part, told)
     ]
     return f"#mistakes([{plain(told.mistakes)}], {', '.join(rows)})\n" if rows else ""
 
 
 def with_mathematics(sentence: str) -> str:
-    """A sentence for every screen, with what it names as a formula would write it: ``V^π`` and ``Q*``."""
-    return _NAMED.sub(r"$\1^\2\3$", sentence)
+    """A sentence for every screen, with what it names as a formula would write it: ``V^π``, ``Q*`` and ``v_π``."""
+    return _NAMED.sub(
+        lambda match: f"${match[1][0]}{'_' if match[1][-1] == '_' else '^'}{match[2]}{match[3]}$", sentence
+    )
 
 
 def _read(exercise: Exercise, mistake: Misconception) -> str:

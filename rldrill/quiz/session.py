@@ -11,6 +11,7 @@ from msgspec import Struct, field
 
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
+from rldrill.misreading import said
 from rldrill.problems.parts import Part, YesNo
 from rldrill.quiz.mistakes import called
 
@@ -130,7 +131,8 @@ class Record(Struct):
         if graded.verdict is None or graded.accepted:
             return ()
         if graded.verdict.told:
-            return tuple(Mistake(mistake.name, mistake.says) for mistake in graded.verdict.told)
+            solution = self.exercise.solution
+            return tuple(Mistake(mistake.name, said(solution, mistake)) for mistake in graded.verdict.told)
         found = self.diagnosis(current)
         if found is None or not found.explains:
             return ()
