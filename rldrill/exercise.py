@@ -332,7 +332,8 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
                     Paragraph("Rule out one answer after the other."),
                 )
             )
-        return Page(self._made(b for formula in formulas for b in (formula.equation(), Paragraph(formula.hint))))
+        said = ((formula.equation(), Paragraph(in_letters(formula.hint))) for formula in formulas)
+        return Page(self._made(block for blocks in said for block in blocks))
 
     def data(self, *, answers: bool = True, mistakes: int = 0, latex: bool = False) -> dict[str, Any]:
         """The problem as JSON has it.

@@ -8,6 +8,7 @@ from msgspec import Struct
 from rldrill.exercise import Exercise
 from rldrill.problems.document import Block, Document, Equation, Paragraph
 from rldrill.problems.parts import YesNo
+from rldrill.render.sentences import in_letters
 from rldrill.solutions.exact import NoSolution, NotGiven
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.formula import Formula
@@ -60,7 +61,7 @@ def _formulas(exercise: Exercise, label: str) -> tuple[Formula, ...]:
 
 def _said(hints: Iterable[str]) -> Iterator[Block]:
     for hint in dict.fromkeys(hints):
-        yield Paragraph(hint)
+        yield Paragraph(in_letters(hint))
 
 
 def _symbols(exercise: Exercise, label: str) -> Iterator[Equation]:

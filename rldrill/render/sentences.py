@@ -20,9 +20,14 @@ _ARTICLE = re.compile(r"(?<![(|+=−·BA] )(?<![(|,])\b[aA]\b(?!′)(?=\s[A-Za-z
 
 
 def in_letters(sentence: str) -> str:
-    """A sentence with the quantities that it names as the notation in use writes them."""
+    """A sentence with its quantities as the notation in use writes them; what stands between ``$`` signs stays."""
     if in_use().notation == LECTURE:
         return sentence
+    pieces = sentence.split("$")
+    return "$".join([piece if number % 2 else _in_letters(piece) for number, piece in enumerate(pieces)])
+
+
+def _in_letters(sentence: str) -> str:
     articles = {match.start() for match in _ARTICLE.finditer(sentence)}
     found = [
         match
