@@ -49,6 +49,12 @@ def split_id(text: str) -> tuple[str, int, int, int | None]:
     )
 
 
+def with_level(name: str) -> tuple[str, int | None]:
+    """What is named, and its level where the name has one: ``td-zero/2`` is of level 2."""
+    family, _, level = name.partition("/")
+    return (family, int(level)) if level in {"1", "2", "3"} else (name, None)
+
+
 def names_a_problem(name: str) -> bool:
     """Whether a name is that of one problem: an ID, or a file."""
     return looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")

@@ -32,7 +32,7 @@ def command(
     names: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="TOPIC|FAMILY|ID|FILE",
+            metavar="TOPIC|FAMILY[/LEVEL]|ID|FILE",
             autocompletion=complete,
             help="Topics, families, problem IDs or problem files; all families, if none.",
         ),
@@ -84,7 +84,7 @@ def command(
         raise UsageError("--exam says what is asked, and for how long; leave out what else would say it.")
     if exam is None and any((version, answers)):
         raise UsageError("--version and --answers are of an exam; name its blueprint or manifest, --exam exam.toml.")
-    wanted = list(names or ())
+    wanted, level = _at_one_level(list(names or ()), level)
     named = [name for name in wanted if names_a_problem(name)]
     if named and (exam_date is not None or mistake is not None):
         raise UsageError(f"{named[0]} is one problem; leave --exam-date and --mistake out, which choose from families.")
@@ -161,6 +161,20 @@ def command(
         finished = screen.run(exercises, session)
     if not finished:
         raise typer.Exit(130)
+
+
+def _at_one_level(names: list[str], level: int | None) -> tuple[list[str], int | None]:
+    """What is drilled, and the level that the names have: ``td-zero/2`` is td-zero at level 2."""
+    from rldrill.problems.errors import UsageError
+    from rldrill.problems.identity import with_level
+
+    split = [with_level(name) for name in names]
+    levels = {own for _, own in split} | {level}
+    if levels <= {None, level}:
+        return [name for name, _ in split], level
+    if len(levels - {None}) > 1 or any(own is None for _, own in split):
+        raise UsageError("A quiz has one level for all that is drawn; leave it out of the names, and give --level.")
+    return [name for name, _ in split], split[0][1]
 
 
 def _sit(source: Path, version: str | None, answers: Path | None, seed: int | None, *, plain: bool) -> None:

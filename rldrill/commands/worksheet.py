@@ -269,14 +269,14 @@ def _blueprint(
 def _entry(name: str) -> "Entry | None":
     """The problem that is named by its ID or file, or by its family and level; None for what is chosen from."""
     from rldrill.exam.blueprint import Entry
-    from rldrill.problems.identity import looks_like_id
+    from rldrill.problems.identity import looks_like_id, with_level
 
     if looks_like_id(name):
         return Entry(id=name)
     if Path(name).suffix.lower() in (".toml", ".json"):
         return Entry(file=name)
-    family, _, level = name.partition("/")
-    return Entry(family=family, level=int(level)) if level in {"1", "2", "3"} else None
+    family, level = with_level(name)
+    return None if level is None else Entry(family=family, level=level)
 
 
 def _printed(
