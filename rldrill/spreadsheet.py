@@ -18,10 +18,11 @@ _ALSO = {
     "matriculation": "number", "matrikel": "number", "matrikelnr": "number",
     "aufgabe": "problem", "teil": "part", "antwort": "answer",
 }  # fmt: skip
-_FIRST = ("first name", "firstname", "given name", "vorname")
-_LAST = ("last name", "lastname", "surname", "family name", "nachname")
+_FIRST = ("first name", "first", "firstname", "given name", "vorname")
+_LAST = ("last name", "last", "lastname", "surname", "family name", "nachname")
 _AS_TEXT = re.compile(r'\A="(.*)"\Z', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
 _MARKED = re.compile(r"\A'(?=[=+\-@\d.(\[])(?!.*'$)", re.DOTALL)  # and so, as our own reports do
+_TOO_FEW = "fill the line up with separators, or take it out."
 #: A file has no more bytes, so neither has a field: an answer that is too long is judged, and costs only itself.
 csv.field_size_limit(10**7)
 _SEPARATED = re.compile(r"\s*\"?sep=([^\r\n\"])\"?[,;\t]*\r?\n", re.IGNORECASE)
@@ -89,8 +90,8 @@ def _record(header: Sequence[str], fields: Sequence[str], where: str) -> dict[st
     found = {"student": whole} | found if whole else found
     if len(fields) != len(header):
         found["says"] = (
-            f"{where}: {len(fields)} fields where the first line names {len(header)}; "
-            "put an answer that holds the separator in double quotes."
+            f"{where}: {len(fields)} field{'s' * (len(fields) > 1)} where the first line names {len(header)}; "
+            + ("put an answer that holds the separator in double quotes." if len(fields) > len(header) else _TOO_FEW)
         )
     return found
 

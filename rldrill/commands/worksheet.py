@@ -163,7 +163,7 @@ def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None
     with _progress("Drawing", len(people) or blueprint.versions) as advance:
         exam = plan(blueprint, roster=people, secret=_secret(secret_file), advance=advance)
     typer.echo(f"seed {exam.seed}", err=True)
-    _tell(len(exam.versions), fairness(exam), blueprint.minutes)
+    _tell(len(exam.versions), fairness(exam), blueprint)
     return exam
 
 
@@ -178,9 +178,11 @@ def _secret(path: Path | None) -> "Secret | None":
     return secret
 
 
-def _tell(number: int, figures: "Fairness", minutes: int | None) -> None:
-    """Say how equal the versions are, and by how much they miss the minutes that were asked for."""
-    if minutes and (missed := figures.says_what_is_missed(minutes)):
+def _tell(number: int, figures: "Fairness", blueprint: "Blueprint") -> None:
+    """Say how equal the versions are, and by how much they miss the minutes that were asked for, or that there are."""
+    minutes, duration = blueprint.minutes, blueprint.duration
+    missed = figures.says_what_is_missed(minutes) if minutes else ""
+    if missed := missed or (figures.says_what_does_not_fit(duration) if duration else ""):
         typer.echo(f"rldrill: {missed}", err=True)
     if number == 1:
         return
@@ -303,7 +305,7 @@ def _printed(
         make_room(earlier(files), force=False)
     with _progress("Drawing", number) as advance:
         exam = drawn(blueprint.but(seed=seed), typst_version(), roster=people, secret=secret, advance=advance)
-    _tell(number, exam.fairness, blueprint.minutes)
+    _tell(number, exam.fairness, blueprint)
     data = exam.manifest
     if needs_system_fonts(blueprint.head, people, data.decode()):
         typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)

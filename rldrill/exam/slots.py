@@ -152,7 +152,7 @@ def _of_topics(
         candidates = tuple(header for header in headers(entry.topic or ()) if header.name not in left_out)
         if not candidates:
             names, less = ", ".join(entry.topic or ("all families",)), ", ".join(blueprint.exclude)
-            raise UsageError(f"Nothing is left of {names} without {less}.")
+            raise UsageError(f"Nothing is left of {names} without {less}; take it out of exclude, or name another.")
     if time is None:
         return list(islice(_endless(candidates, entry.level, draws, versions), entry.count or 1))
     trials = (_filled(candidates, entry, draws, time, versions) for _ in range(_TRIALS))

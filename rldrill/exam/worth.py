@@ -37,8 +37,8 @@ def worth(slots: Sequence[Slot], exercises: Sequence[Exercise], total: int | Non
     if waiting and rest < len(waiting):
         raise error(
             where,
-            f"of {total} points {max(0, rest)} are left for {len(waiting)} parts without points of their own, and each "
-            "needs one; raise the total.",
+            f"of {total} points {max(0, rest)} are left for {len(waiting)} part{'s' * (len(waiting) > 1)} without "
+            "points of their own, and each needs one; raise the total.",
         )
     for (index, label, _), share in zip(waiting, shared([amount for *_, amount in waiting], rest), strict=True):
         result[index][label] = share

@@ -87,7 +87,7 @@ def _days(days: Iterable[Day]) -> Table:
         share = day.right / day.parts
         answers = counted(day.answers, "answer")
         table.add_row(
-            f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, f"{_time(day.seconds)} each"
+            f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, f"half within {_time(day.seconds)}"
         )
     return table
 

@@ -251,6 +251,15 @@ def test_minutes_are_missed_by_more_than_a_tenth(minutes: tuple[int, int], wante
     assert told == (f"{says} ask for other minutes, or name more topics or problems" if says else "")
 
 
+@pytest.mark.parametrize(
+    ("minutes", "duration", "fits"),
+    [((45, 90), 90, True), ((44, 60), 90, False), ((60, 91), 90, False), ((12, 12), 90, False)],
+)
+def test_an_exam_is_filled_at_least_by_half(minutes: tuple[int, int], duration: int, fits: bool) -> None:
+    told = Fairness(0, 0, minutes, 0.0, {}, {}, {}).says_what_does_not_fit(duration)
+    assert not told if fits else "the exam lasts 90; change the problems or the duration" in told
+
+
 @pytest.mark.parametrize(("versions", "where"), [(49, "here"), (50, "apart")])
 def test_many_versions_are_planned_in_a_process_of_its_own(
     monkeypatch: pytest.MonkeyPatch, versions: int, where: str
