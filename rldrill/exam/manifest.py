@@ -32,17 +32,19 @@ _FORMATS = (1, FORMAT)
 LARGEST = 250 * 10**6
 
 
-def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
+def manifest(exam: Exam, printed_with: str | None = None, blueprint: str | None = None) -> dict[str, Any]:
     """All that is printed: enough to print it again or to grade, also after a family has changed.
 
     Args:
         exam: the exam.
         printed_with: the version of Typst, which decides the bytes of the PDFs.
+        blueprint: the digest of the blueprint that it was begun from, where somebody sits it.
     """
     return {
         "format": FORMAT,
         "rldrill": __version__,
         "typst": printed_with,
+        **({} if blueprint is None else {"blueprint": blueprint}),
         **asdict(exam.head),
         "seed": exam.seed,
         **({"sealed": True} if exam.sealed else {}),
@@ -155,6 +157,7 @@ class _Layout(_Table):
 
 class _Manifest(_Table):
     typst: str | None = None
+    blueprint: str | None = None
     title: str
     course: str = ""
     date: str = ""
@@ -259,6 +262,15 @@ def typst_of(path: str | Path) -> str | None:
         FileError: the file cannot be read, or is no manifest.
     """
     return _checked(path).typst
+
+
+def digest_of(path: str | Path) -> str | None:
+    """The digest of the blueprint from which somebody began to sit a manifest's exam, where it says so.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest.
+    """
+    return _checked(path).blueprint
 
 
 def _checked(path: str | Path) -> _Manifest:

@@ -488,6 +488,9 @@ def test_who_sits_it_stays_in_the_file_and_problems_may_be_called_by_their_numbe
         '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\ncount = 2\n',
         '[[problems]]\nid = "return/1/430"\n',
         'seed = 6\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\nlevel = 3\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\ntopic = "bayes"\n',
+        'points = 30\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
     ],
 )
 def test_next_weeks_quiz_of_the_same_title_does_not_go_on_with_this_weeks(tmp_path: Path, other: str) -> None:
@@ -496,7 +499,8 @@ def test_next_weeks_quiz_of_the_same_title_does_not_go_on_with_this_weeks(tmp_pa
     path.write_text(f"seed = 5\n{text}", encoding="utf-8")
     begun = _begun(path, saved, None)
     path.write_text(text.replace("10", "20"), encoding="utf-8")  # more time is no other exam
-    assert _begun(path, saved, None).versions == begun.versions
+    longer = _begun(path, saved, None)
+    assert (longer.versions, longer.head.duration) == (begun.versions, 20)
     path.write_text(other, encoding="utf-8")
     with pytest.raises(UsageError, match="holds another exam that was begun"):
         _begun(path, saved, None)
