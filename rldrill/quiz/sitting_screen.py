@@ -95,8 +95,11 @@ class SittingScreen:
     def _keep(self, sitting: Sitting) -> None:
         """Write the file of answers; where the disk does not let us, say so once and go on."""
         try:
-            sitting.save()
+            aside = sitting.save()
             self._kept = True
+            if aside is not None:
+                said = f"{sitting.path} was changed meanwhile and could not be read; what stood there is in {aside}."
+                self._print(words((said, "yellow")))
         except OSError as error:
             self._kept = False
             if not self._told:
