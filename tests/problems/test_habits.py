@@ -265,6 +265,7 @@ ROWS = [["A", "go", "A", 1, 1]]
         ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": [["A", "go"]]}),
         ("policy-value", {"mdp": {"transitions": "A go A 1 1"}, "gamma": "1/2"}),
         ("policy-value", {"mdp": ROWS, "gamma": "1/2"}),
+        ("policy-value", {"mdp": {"transitions": {"A": {"go": {"A": [1, 5]}}}}, "gamma": "1/2"}),
         ("policy-value", {"mdp": {"P": "[[[1]]]", "R": "[1]"}, "gamma": "1/2"}),
         ("policy-value", {"mdp": {"P": {"go": [[1]]}, "R": {"go": [1]}}, "gamma": "1/2"}),
         ("action-value", {"dynamics": ROWS, "values": {"A": 1}, "gamma": "1/2"}),
