@@ -7,6 +7,7 @@ import pytest
 
 import rldrill
 from promptness import at_once
+from rldrill.problems.notations import used
 from rldrill.solutions.diagnosis.written_line import _apart, numbers_typed
 
 # As in test_diagnosing.py: cave ← 10, floor ← 5, cave ← 17/4.
@@ -317,3 +318,9 @@ def test_what_is_pasted_without_end_takes_no_time(lines: list[str]) -> None:
     exercise.follow(["1"])  # what is compared with is made once
     with at_once():
         assert len(exercise.follow(lines).lines) == len(lines)
+
+
+def test_a_line_is_handed_back_as_it_was_typed() -> None:
+    with used("control"):
+        told = rldrill.load("linearise/1/5").follow(["A_21 = $-10$", " ", "$5$"])
+    assert [line.text for line in told.lines] == ["A_21 = $-10$", "$5$"]
