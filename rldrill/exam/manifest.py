@@ -27,7 +27,6 @@ from rldrill.solutions.effort import minutes_of as part_minutes
 
 #: The version of the manifest's form.
 FORMAT = 2
-_FORMATS = (1, FORMAT)
 #: As many bytes as the largest exam has: a problem takes a thousand or two.
 LARGEST = 250 * 10**6
 
@@ -169,8 +168,7 @@ class _Manifest(_Table):
     sealed: bool = False
     scale: Annotated[int, Field(ge=1)] | None = None
     partial: Partial = "all"
-    paper: Paper = "a4"  # where format 1 has it
-    layout: _Layout | None = None
+    layout: _Layout = _Layout()
     versions: Annotated[tuple[_Version, ...], Field(min_length=1)]
 
 
@@ -194,7 +192,7 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
     """
     data, where = _checked(path), shown(path)
     head = Head(**{name: getattr(data, name) for name in Head.__struct_fields__})
-    layout = Layout(**(data.layout or _Layout(paper=data.paper, ids=True)).model_dump())
+    layout = Layout(**data.layout.model_dump())
     makes = tuple(partial(_made, version, where) for version in data.versions)
     return Exam(head, data.seed, (), data.partial, layout, data.sealed, data.scale), makes
 
@@ -280,9 +278,9 @@ def _checked(path: str | Path) -> _Manifest:
             f"{where}: this is no manifest of an exam; name the .json file that was written beside the PDFs."
         )
     version = data.get("format")
-    if version not in _FORMATS or isinstance(version, bool):
+    if version != FORMAT or isinstance(version, bool):
         raise FileError(
-            f"{where}: its format is {str(version)[:20]}, and this release reads formats 1 and {FORMAT}; "
+            f"{where}: its format is {str(version)[:20]}, and this release reads format {FORMAT}; "
             f"use the release that wrote it ({str(data['rldrill'])[:20]}) or a newer one."
         )
     try:
