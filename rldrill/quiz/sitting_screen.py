@@ -62,13 +62,10 @@ class SittingScreen:
         self._plain = plain
         self._console = console
         self._display = Display(console, ask, plain=plain)
+        self.redraw = self._display.redraw
         self._ask, self._print = self._display.ask, self._display.print
         self._now = now
         self._kept, self._told = True, False
-
-    def redraw(self) -> None:
-        """Show the page once more, as wide as the window is now."""
-        self._display.redraw()
 
     def run(self, sitting: Sitting) -> bool:
         """Sit the exam, from the first part without an answer on.
