@@ -78,9 +78,10 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
     P, R = nested(data["P"]), nested(data["R"])
     state, action = ([str(name) for name in several(data.get(each, ()))] for each in ("states", "actions"))
     if isinstance(P, Mapping):
-        action = [str(name) for name in P]
-        P = list(P.values())
+        P, action = _in_order({str(name): square for name, square in P.items()}, action)
     if isinstance(R, Mapping):
+        if {*map(str, R)} == {*state} == {*action}:
+            raise ValueError("R: its names are those of states and of actions; write it as a list R[state][action]")
         R = _by_name(R, state) if {*map(str, R)} == {*state} else _by_action(_by_name(R, action))
     shape = _shape(P)
     alone = len(shape) == 2 and shape[0] == shape[1]
@@ -153,6 +154,19 @@ def _named(names: list[str], count: int, what: str) -> list[str]:
     if names and (len(names) != count or len({*names}) != count):
         raise ValueError(f"{what}: {len(names)} names are given for {count} {what}; give each its own")
     return names or [str(number) for number in range(count)]
+
+
+def _in_order(squares: Mapping[str, Any], names: list[str]) -> tuple[list[Any], list[str]]:
+    """The squares of actions in the order of their names, which stand beside their numbers or are their own.
+
+    Raises:
+        ValueError: other names are given for them.
+    """
+    if not names or list(squares) == [str(number) for number in range(len(names))]:
+        return [*squares.values()], names or [*squares]
+    if {*squares} != {*names} or len(squares) != len(names):
+        raise ValueError(f"actions: {', '.join(names)} are not those of P, {', '.join(squares)}; make them the same")
+    return [squares[name] for name in names], names
 
 
 def _by_name(R: Mapping[Any, Any], names: Sequence[str]) -> list[Any]:

@@ -42,7 +42,10 @@ def settled(given: Any, schema: Schema) -> Any:
 
 
 def written(schema: Schema) -> dict[str, Any]:
-    """The JSON Schema of what files may hold as ``settled`` reads it: an entry for a list of one, a text for rows."""
+    """The JSON Schema of what files may hold as ``settled`` reads it: an entry for a list of one, a text for rows.
+
+    Fields have their own names in it; those of ``ALSO`` are read, and an editor need not offer them.
+    """
     return _written(schema, schema.get("$defs", {}))
 
 
@@ -59,7 +62,9 @@ def _written(schema: Any, parts: Mapping[str, Schema]) -> Any:
             whole[key] = value if key in _SAID else _written(value, parts)
     about = {key: whole.pop(key) for key in _SAID if key in whole}
     if schema.get("required") == ["transitions"]:
-        return about | {"anyOf": [whole, whole["properties"]["transitions"]]}
+        rows = whole["properties"]["transitions"]
+        tables = {"properties": whole["properties"] | {"transitions": {"anyOf": [rows, {"type": "object"}]}}}
+        return about | {"anyOf": [whole | tables, rows]}
     if {*schema.get("properties", ())} >= _RUN:
         return about | {"anyOf": [whole, {"type": "string"}]}
     entries = _entries([schema], parts) if schema.get("type") == "array" else []

@@ -1,6 +1,6 @@
 """The forms in which people have models, beside the list of transitions: each becomes that list."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rldrill.problems import arrays, gymnasium
@@ -118,7 +118,7 @@ def read_dynamics(data: object) -> object:
         return data
     rows = data.get("transitions")
     if isinstance(rows, Mapping):
-        return data | {"transitions": _opened(rows)}
+        return data | {"transitions": _opened(rows, several(data.get("terminal", ())))}
     if isinstance(rows, str) or (isinstance(rows, list) and rows and all(isinstance(row, Mapping) for row in rows)):
         read = _read_table(rows)
         return {name: field for name, field in read.items() if field or name == "transitions"} | {
@@ -127,23 +127,33 @@ def read_dynamics(data: object) -> object:
     return data
 
 
-def _opened(table: Mapping[Any, Any]) -> list[list[Any]]:
+def _opened(table: Mapping[Any, Any], ends: Sequence[Any]) -> list[list[Any]]:
     """The rows of tables inside tables: by state, action and next state a probability, or it with the reward.
 
     Where an action leads for sure its next state is enough; where there are no actions the next states come first.
     """
     rows: list[list[Any]] = []
+    sure = _leads_for_sure(table, {*map(str, table), *map(str, ends)})
     for state, inner in table.items():
         for name, leaf in inner.items() if isinstance(inner, Mapping) else [(None, inner)]:
             if isinstance(leaf, Mapping):
                 rows += [[state, name, after, *_chance(each)] for after, each in leaf.items()]
-            elif name is not None and isinstance(leaf, str) and not is_scalar(leaf):
+            elif name is not None and (sure or (isinstance(leaf, str) and not is_scalar(leaf))):
                 rows.append([state, name, leaf, 1])
             elif name is not None:
                 rows.append([state, name, *_chance(leaf)])
             else:
                 raise ValueError(f"transitions: {state!r} must have a table of its actions")
     return rows
+
+
+def _leads_for_sure(table: Mapping[Any, Any], states: set[str]) -> bool:
+    """Whether names that are numbers or letters can only be next states: of each action one, and not all are 1."""
+    inner = [each for each in table.values() if isinstance(each, Mapping)]
+    leaves = {str(leaf) for each in inner for leaf in each.values() if not isinstance(leaf, Mapping | list | tuple)}
+    actions = {str(name) for each in inner for name in each}
+    reached = all(leaf in states or not is_scalar(leaf) for leaf in leaves)
+    return reached and bool(leaves - {"1"}) and not actions & states
 
 
 def _chance(leaf: object) -> list[Any]:
@@ -158,7 +168,7 @@ def _read_P(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
         ):
             return gymnasium.read_table(data)
         rest = {("rewards" if name == "R" else name): field for name, field in data.items() if name != "P"}
-        return read_form(rest | {"transitions": _opened(P)}, note)
+        return read_form(rest | {"transitions": _opened(P, several(data.get("terminal", ())))}, note)
     model = arrays.read_arrays(data)
     P = arrays.nested(P)
     if isinstance(P, list | tuple) and isinstance(P[0][0], list | tuple) and len(P) == len(P[0]):

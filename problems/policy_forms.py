@@ -7,9 +7,11 @@ from typing import Any
 from rldrill.problems.exact import is_scalar
 from rldrill.problems.readings import Note
 
-_PARTED = re.compile(r"[,;\n]")
+_PARTED = re.compile(r"[,;\n](?![^()\n]*\))")
 #: An action behind its state: A: left, A -> left, π(A) = left.
-_PAIR = re.compile(r"\s*(?:(?:π|pi)\((?P<inside>[^()]*)\)|(?P<state>[^:=→>-]+?))\s*(?::|=|->|→)\s*(?P<action>\S.*?)\s*")
+_PAIR = re.compile(
+    r"\s*(?:(?:π|pi)\((?P<inside>[^()]*)\)|(?P<state>(?:[^:=→>-]|-(?!>))+?))\s*(?::|=|->|→)\s*(?P<action>\S.*?)\s*"
+)
 
 
 def by_states(policy: object, actions: Mapping[str, Sequence[str]], note: Note) -> object:
@@ -20,6 +22,9 @@ def by_states(policy: object, actions: Mapping[str, Sequence[str]], note: Note) 
             every state in their order, or a row of probabilities for every state.
         actions: the actions of every state, in their order.
         note: told where the order of the states was taken for granted.
+
+    Raises:
+        ValueError: an action has two probabilities in a state.
     """
     rows = _rows(policy)
     if rows is None:
@@ -61,6 +66,8 @@ def _named(rows: Sequence[Sequence[Any]], actions: Mapping[str, Sequence[str]]) 
         if str(state) not in actions or len(said) != len(rows[0]) - 1:
             return None
         if len(said) == 2:
+            if str(said[0]) in found.get(str(state), ()):
+                raise ValueError(f"{said[0]!r} stands twice in {state!r}; keep one of them")
             found.setdefault(str(state), {})[str(said[0])] = said[1]
         elif len(said) == 1 and str(state) not in found:
             found[str(state)] = said[0]

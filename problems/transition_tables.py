@@ -12,41 +12,15 @@ from rldrill.problems.episodes import Outcome, model
 ALONE = "step"
 #: What a column may be called, in small letters without blanks and underscores.
 _COLUMNS = {
-    "state": ("state", "s", "from", "fromstate", "currentstate", "source", "start", "zustand", "von"),
-    "action": ("action", "a", "act", "aktion"),
-    "next": (
-        "next",
-        "nextstate",
-        "s'",
-        "s′",
-        "s2",
-        "sp",
-        "sprime",
-        "newstate",
-        "successor",
-        "to",
-        "tostate",
-        "target",
-        "folgezustand",
-        "nach",
-    ),
-    "probability": (
-        "probability",
-        "prob",
-        "p",
-        "pr",
-        "chance",
-        "wahrscheinlichkeit",
-        "transitionprobability",
-        "t",
-        "p(s'|s,a)",
-        "p(s'|s)",
-        "t(s,a,s')",
-    ),
-    "reward": ("reward", "r", "rewards", "rew", "r(s,a,s')", "r(s,a)", "r(s)", "belohnung"),
-    "end": ("end", "ends", "done", "terminal", "terminated", "isterminal"),
+    "state": "state s from fromstate currentstate source start zustand von",
+    "action": "action a act aktion",
+    "next": "next nextstate s' s′ s2 sp sprime newstate successor to tostate target folgezustand nach",
+    "probability": "probability prob p pr chance wahrscheinlichkeit transitionprobability t t(s,a,s') p(s'|s) "
+    "p(s'|s,a)",
+    "reward": "reward r rewards rew r(s,a,s') r(s,a) r(s) belohnung",
+    "end": "end ends done terminal terminated isterminal",
 }
-_NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spelling in spellings}
+_NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spelling in spellings.split()}
 _TRUE, _FALSE = ("1", "true", "yes", "1.0"), ("", "0", "false", "no", "0.0")
 #: A decimal comma; 1,000 may be a thousand, and is left to be refused.
 _COMMA = re.compile(r"[+−-]?(?![1-9]\d{0,2},\d{3}(?!\d))\d+,\d+\s*%?")

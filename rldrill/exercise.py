@@ -249,7 +249,9 @@ class Exercise(Struct, frozen=True, eq=False, dict=True):
         if not isinstance(lines, Iterable):
             raise UsageError("The working is no text and no list of lines; give one of these.")
         texts = lines.splitlines() if isinstance(lines, str) else [str(line) for line in lines]
-        return self.problem.written(lambda: followed(self.diagnosing.search({}), texts))
+        told = self.problem.written(lambda: followed(self.diagnosing.search({}), texts))
+        typed = filter(None, map(str.strip, texts))  # the notation is that of what is said, not of what was typed
+        return replace(told, lines=tuple(map(lambda line, text: replace(line, text=text), told.lines, typed)))
 
     def _part(self, label: str) -> Part:
         for part in self.parts:

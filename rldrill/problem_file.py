@@ -16,7 +16,8 @@ _IGNORED = frozenset({"format", "id", "level", "question", "parts", "steps"})
 def schema_of(name: str) -> dict[str, Any]:
     """The JSON Schema of the problem files of a family, for editors and other programs.
 
-    It is that of a file that holds its model itself, and names no other file (``{ file = "model.csv" }``).
+    It is that of a file that holds its model itself, and names no other file (``{ file = "model.csv" }``). It has the
+    fields' own names; other names that are read as well (``discount`` for ``gamma``) are not in it.
 
     Raises:
         UsageError: there is no such family.

@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.centres import Centred
 from rldrill.problems.exact import Scalar
-from rldrill.solutions.exact import NoSolution, Value, exact, told
+from rldrill.solutions.exact import NoSolution, Value, equals, exact
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
 from rldrill.solutions.sheet.function_approximation import (
@@ -66,7 +66,7 @@ def found(given: Centred, work: Work, distance: Mapping[int, Value]) -> Value:
     if len(common) != 1:
         raise NoSolution("the known features do not fit exactly one state")
     (state,) = common
-    work.say(f"Only $s = {told(state)}$ fits both.")
+    work.say(f"Only $s {equals(state)}$ fits both.")
     return state
 
 

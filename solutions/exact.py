@@ -197,7 +197,12 @@ def terms(value: Any) -> int:
 
 def told(value: Value) -> str:
     """A number as mathematics, for a sentence; a closed form as a decimal."""
-    return str(f"about {decimal(value)}" if is_closed(value) else value).replace("-", "−")
+    return str(f"≈ {decimal(value)}" if is_closed(value) else value).replace("-", "−")
+
+
+def equals(value: Value) -> str:
+    """The same with the relation to it: = 3/4, but ≈ 0.7071."""
+    return "= " * (not is_closed(value)) + told(value)
 
 
 def digits(value: Value) -> int:

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from rldrill.problems.document import begun, joined
 from rldrill.problems.models import Transition
-from rldrill.solutions.exact import NoSolution, Value, parameters, told
+from rldrill.solutions.exact import NoSolution, Value, equals, parameters, told
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.rational import generator
 from rldrill.solutions.work import Work
@@ -58,7 +58,7 @@ def reached(
     ahead = {**values, given.other: generator("y")}
     worths = {action: work.step(formula, s=state, a=action, **known, V=ahead) for action in known["actions"][state]}
     moving = [action for action, worth in worths.items() if parameters(worth)]
-    this = f'${given.name}("{state}") = {told(target)}$'
+    this = f'${given.name}("{state}") {equals(target)}$'
     if less := [action for action in worths if action not in moving]:
         beaten = f"{begun(joined(less))} {'is' if len(less) == 1 else 'are'} worth less than {this}"
         work.say(f"{beaten}, so {moving[0]} must be worth that:" if len(moving) == 1 else f"{beaten}.")
@@ -80,12 +80,12 @@ def reached(
     (best, *_) = (action for action, end in ends.items() if end == value)
     more = []
     for end in dict.fromkeys(end for end in ends.values() if end != value):
-        work.say(f"With $y = {told(end)}$ {best} is worth:")
+        work.say(f"With $y {equals(end)}$ {best} is worth:")
         worth = work.step(formula, s=state, a=best, **known, V={**values, given.other: end})
-        more.append(f"${told(worth)}$ with $y = {told(end)}$")
+        more.append(f"${told(worth)}$ with $y {equals(end)}$")
     if more:
         too_much = f"{begun(best)} would be worth {joined(more)}, more than ${told(target)}$"
-        work.say(f"{too_much}: so $y = {told(value)}$ is right.")
+        work.say(f"{too_much}: so $y {equals(value)}$ is right.")
     elif len(moving) > 1:
         work.say(f"So {best} is best in {state}.")
     return value, best
@@ -124,5 +124,5 @@ def rewarded(
         raise NoSolution(
             f"the reward of {row.action!r} does not follow: another action in {state!r} is worth as much or more"
         )
-    work.say(f'Only {row.action} can be worth ${name}("{state}") = {told(value)}$:')
+    work.say(f'Only {row.action} can be worth ${name}("{state}") {equals(value)}$:')
     return work.equate(str(row.reward), worths[row.action], value), worths

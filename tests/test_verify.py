@@ -1,6 +1,7 @@
 """Files of answers: how they are read, judged, reported and refused."""
 
 import contextlib
+import errno
 import json
 import subprocess
 import sys
@@ -614,6 +615,19 @@ def test_a_report_that_cannot_be_written_does_not_keep_others_from_it(folder: Pa
             [path], reports=[f"text={folder}", f"json={folder / 'report.json'}"], allow_files=True, feedback="none"
         )
     assert json.loads((folder / "report.json").read_text())["exit_code"] == 0
+
+
+def test_a_report_that_cannot_be_written_leaves_the_one_before(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = write(folder, "a.csv", "problem,part,answer\ntd.toml,a,6.8\n")
+    before = write(folder, "report.json", "{}")
+
+    def is_full(_handle: int) -> None:
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    monkeypatch.setattr("os.fsync", is_full)
+    with pytest.raises(FileError, match=r"report\.json: it cannot be written"):
+        verify_command.command([path], reports=[f"json={before}"], allow_files=True, feedback="none")
+    assert before.read_text() == "{}"
 
 
 @pytest.mark.parametrize("columns", ["40", "60", "80"])

@@ -213,21 +213,25 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
 
 def _begun(blueprint: Path, saved: Path, seed: int | None) -> "Exam":
     """The exam of a blueprint, drawn when it is begun for the first time, in whichever terminal that is."""
+    from msgspec.structs import replace
+
     from rldrill.exam.blueprint import read_blueprint
-    from rldrill.exam.manifest import manifest, read_manifest, written
-    from rldrill.exam.planning import can_be_of, plan
+    from rldrill.exam.manifest import digest_of, manifest, read_manifest, written
+    from rldrill.exam.planning import plan
     from rldrill.problems.errors import UsageError
     from rldrill.writing import begin
 
-    if saved.exists():
-        begun = read_manifest(saved)
-        if not can_be_of(begun, read_blueprint(blueprint).but(seed=seed)):
-            raise UsageError(
-                f"{saved} holds another exam that was begun, {begun.head.title!r}; name another file with --answers."
-            )
-        return begun
-    planned = plan(read_blueprint(blueprint).but(seed=seed))
-    return planned if begin(saved, written(manifest(planned))) else read_manifest(saved)
+    wanted = read_blueprint(blueprint).but(seed=seed)
+    if not saved.exists():
+        planned = plan(wanted)
+        kept = written(manifest(planned, blueprint=wanted.digest))
+        return planned if begin(saved, kept) else read_manifest(saved)
+    begun = read_manifest(saved)
+    if digest_of(saved) != wanted.digest or wanted.seed not in (None, begun.seed):
+        raise UsageError(
+            f"{saved} holds another exam that was begun, {begun.head.title!r}; name another file with --answers."
+        )
+    return replace(begun, head=wanted.head, layout=wanted.layout)
 
 
 def _map(attempts: Sequence["Attempt"]) -> "RenderableType":

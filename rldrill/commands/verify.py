@@ -248,7 +248,7 @@ def _write(report: "Report", form: str, path: str, feedback: str) -> None:
     if form == "csv" and path != "-":
         _put(module.totals(report), _totals(Path(path)))
     if form == "github" and (summary := os.environ.get("GITHUB_STEP_SUMMARY")):
-        _put(module.summary(report, feedback), Path(summary), "a")
+        _put(module.summary(report, feedback), Path(summary), behind=True)
     if path == "-":
         typer.echo(text, nl=False)
     else:
@@ -260,14 +260,18 @@ def _totals(path: Path) -> Path:
     return path.with_name(f"{path.stem}-totals{path.suffix}")
 
 
-def _put(text: str, path: Path, mode: str = "w") -> None:
+def _put(text: str, path: Path, *, behind: bool = False) -> None:
+    """Write a file whole, or behind what it holds."""
     from rldrill.files import shown
     from rldrill.problems.errors import FileError, reason
+    from rldrill.writing import write_bytes_atomically
 
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open(mode, encoding="utf-8", newline="") as file:
-            file.write(text)
+        if behind:
+            with path.open("ab") as file:
+                file.write(text.encode())
+        else:
+            write_bytes_atomically(path, text.encode())
     except OSError as error:
         raise FileError(f"{shown(path)}: it cannot be written ({reason(error)}).") from None
 

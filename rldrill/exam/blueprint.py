@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 from datetime import date
+from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -110,6 +111,12 @@ class Blueprint(_Table):
         return Layout(**{name: getattr(self, name) for name in Layout.__struct_fields__})
 
     @property
+    def digest(self) -> str:
+        """A digest of all that decides which problems there are, for how many points; the seed is kept beside it."""
+        asked = self.model_dump_json(exclude=_NO_MATTER, exclude_defaults=True)
+        return sha256(asked.encode()).hexdigest()[:16]
+
+    @property
     def folder(self) -> Path:
         """Where the paths of problem files begin."""
         return self._folder
@@ -137,6 +144,10 @@ class Blueprint(_Table):
         if (length := len(given.get("title", ""))) > LONGEST_TITLE:
             raise UsageError(f"The title has {length} characters; give one of at most {LONGEST_TITLE}.")
         return self.model_copy(update=given)
+
+
+#: What an exam that was begun takes from its blueprint anew.
+_NO_MATTER = {"seed", "duration", "instructions", "language", "decimal_mark", *Layout.__struct_fields__}
 
 
 def template() -> str:

@@ -27,22 +27,23 @@ from rldrill.solutions.effort import minutes_of as part_minutes
 
 #: The version of the manifest's form.
 FORMAT = 2
-_FORMATS = (1, FORMAT)
 #: As many bytes as the largest exam has: a problem takes a thousand or two.
 LARGEST = 250 * 10**6
 
 
-def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
+def manifest(exam: Exam, printed_with: str | None = None, blueprint: str | None = None) -> dict[str, Any]:
     """All that is printed: enough to print it again or to grade, also after a family has changed.
 
     Args:
         exam: the exam.
         printed_with: the version of Typst, which decides the bytes of the PDFs.
+        blueprint: the digest of the blueprint that it was begun from, where somebody sits it.
     """
     return {
         "format": FORMAT,
         "rldrill": __version__,
         "typst": printed_with,
+        **({} if blueprint is None else {"blueprint": blueprint}),
         **asdict(exam.head),
         "seed": exam.seed,
         **({"sealed": True} if exam.sealed else {}),
@@ -155,6 +156,7 @@ class _Layout(_Table):
 
 class _Manifest(_Table):
     typst: str | None = None
+    blueprint: str | None = None
     title: str
     course: str = ""
     date: str = ""
@@ -166,8 +168,7 @@ class _Manifest(_Table):
     sealed: bool = False
     scale: Annotated[int, Field(ge=1)] | None = None
     partial: Partial = "all"
-    paper: Paper = "a4"  # where format 1 has it
-    layout: _Layout | None = None
+    layout: _Layout = _Layout()
     versions: Annotated[tuple[_Version, ...], Field(min_length=1)]
 
 
@@ -191,7 +192,7 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
     """
     data, where = _checked(path), shown(path)
     head = Head(**{name: getattr(data, name) for name in Head.__struct_fields__})
-    layout = Layout(**(data.layout or _Layout(paper=data.paper, ids=True)).model_dump())
+    layout = Layout(**data.layout.model_dump())
     makes = tuple(partial(_made, version, where) for version in data.versions)
     return Exam(head, data.seed, (), data.partial, layout, data.sealed, data.scale), makes
 
@@ -261,6 +262,15 @@ def typst_of(path: str | Path) -> str | None:
     return _checked(path).typst
 
 
+def digest_of(path: str | Path) -> str | None:
+    """The digest of the blueprint from which somebody began to sit a manifest's exam, where it says so.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest.
+    """
+    return _checked(path).blueprint
+
+
 def _checked(path: str | Path) -> _Manifest:
     data, where = read_data(path, LARGEST), shown(path)
     if not _is_exam(data):
@@ -268,9 +278,9 @@ def _checked(path: str | Path) -> _Manifest:
             f"{where}: this is no manifest of an exam; name the .json file that was written beside the PDFs."
         )
     version = data.get("format")
-    if version not in _FORMATS or isinstance(version, bool):
+    if version != FORMAT or isinstance(version, bool):
         raise FileError(
-            f"{where}: its format is {str(version)[:20]}, and this release reads formats 1 and {FORMAT}; "
+            f"{where}: its format is {str(version)[:20]}, and this release reads format {FORMAT}; "
             f"use the release that wrote it ({str(data['rldrill'])[:20]}) or a newer one."
         )
     try:

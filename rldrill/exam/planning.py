@@ -1,6 +1,5 @@
 """Planning an exam: a problem for every place of every version, none twice, and no answer twice in the same place."""
 
-from collections import Counter
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 
@@ -16,7 +15,7 @@ from rldrill.exam.worth import partial, worth
 from rldrill.exercise import Exercise
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
-from rldrill.problems.identity import MAX_SEED, split_id
+from rldrill.problems.identity import MAX_SEED
 
 #: How far a problem may be from the minutes of its place, in parts of the exam's.
 _TOLERANCE = Fraction(4, 100)
@@ -70,25 +69,6 @@ def plan(
     return Exam(
         blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout, secret is not None, blueprint.scale
     )
-
-
-def can_be_of(exam: Exam, blueprint: Blueprint) -> bool:
-    """Whether an exam can have been drawn from a blueprint: of its name and seed, with what is named, and as much."""
-    head, asked = exam.head, blueprint.head
-    if (head.title, head.course, head.date) != (asked.title, asked.course, asked.date):
-        return False
-    if blueprint.seed not in (None, exam.seed):
-        return False
-    exercises = exam.versions[0].exercises
-    families = Counter(exercise.problem.family.name for exercise in exercises)
-    wanted: Counter[str] = Counter()
-    for entry in blueprint.problems:
-        if entry.family is not None:
-            wanted[entry.family] += entry.count or 1
-    ids = {split_id(exercise.id)[:3] for exercise in exercises if exercise.id}
-    fixed = {split_id(entry.id)[:3] for entry in blueprint.problems if entry.id is not None}
-    number = sum(entry.count or 1 for entry in blueprint.problems)
-    return fixed <= ids and wanted <= families and (blueprint.minutes is not None or number == len(exercises))
 
 
 def version_codes(count: int, seed: int, secret: Secret | None = None) -> tuple[str, ...]:

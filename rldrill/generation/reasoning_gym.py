@@ -4,8 +4,9 @@
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from reasoning_gym.factory import ProceduralDataset, register_dataset
@@ -17,15 +18,18 @@ from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 
 _ANSWERS = "Answer every part on a line of its own, such as (a) 3/4, exactly or with three significant digits."
-#: (a) 3/4, perhaps in a list, bold, behind "the answer is", or in the tags that models put around an answer; "A."
-#: begins a list of other things as well, so a capital needs its bracket or the word.
-_LINE = re.compile(
-    r"^[^\S\n]*(?:<(?i:answer)>\s*)?(?:[-*•][^\S\n]+)?(?:\*\*)?"
-    r"(?i:(?:the[^\S\n]++)?(?:final[^\S\n]++)?answer(?:[^\S\n]++is)?[^\S\n]*+:?+(?:\*\*)?+[^\S\n]*+)?"
-    r"(?:(?i:part)\s+)?\(?([a-z]|(?<=\()[A-Z]|(?<=[Pp]art )[A-Z])[):.]+(?:\*\*)?[^\S\n]*(\S.*)$",
-    re.MULTILINE,
+_BLANK = r"[^\S\n]"
+#: "(a)" or "Part a:", perhaps in a list, a table, a heading or bold, behind "the answer is", or in the tags that models
+#: put around an answer; "a." and "A)" are perhaps one, for lists begin so as well, and "A." is none.
+_LABEL = re.compile(
+    rf"(?:{_BLANK}|[>#|*`•-])*+(?:\d+[.)](?:{_BLANK}|\*)*+)?+(?:<(?i:answer)>{_BLANK}*+)?+"
+    rf"(?i:(?:the{_BLANK}++)?+(?:final{_BLANK}++)?+answer(?:{_BLANK}++is)?+{_BLANK}*+:?+(?:\*\*)?+{_BLANK}*+)?+"
+    rf"(?:(?:(?i:part){_BLANK}++)?+\((?P<sure>[a-zA-Z])\)|(?i:part){_BLANK}++(?P<part>[a-zA-Z])(?=[:.)*|]|{_BLANK}*+$)"
+    rf"|(?P<perhaps>[a-z](?=[:.)]|{_BLANK}*+\|)|[A-Z](?=\))))[:.)]*+(?:\*\*)?+:?+"
 )
-_TAGS = ("</answer>", "**")
+_NEXT = re.compile(rf"(?:[,;]{_BLANK}*+(?:and{_BLANK}++)?+|(?<!\s){_BLANK}++and{_BLANK}++)(?=(?:\*\*)?\([a-zA-Z]\))")
+#: What is set around an answer.
+_AROUND = re.compile(r"\A(?:\*\*|[`|\s])++|(?<![\s`|*])(?:\*\*|[`|\s]|</answer>)++\.?\Z")
 _BOXED = re.compile(r"\\boxed\s*\{((?:[^{}]|\{[^{}]*\})*)\}")
 
 
@@ -107,19 +111,30 @@ class Dataset(ProceduralDataset):  # type: ignore[misc, unused-ignore]
         answer = _BOXED.sub(lambda boxed: boxed[1], answer)
         exercise = load(entry["metadata"]["id"])
         known = {part.label for part in exercise.parts}
-        texts = {label.lower(): _bare(text) for label, text in _LINE.findall(answer) if label.lower() in known}
+        texts = _answers(answer, known)
         if not texts and len(known) == 1:
             texts = dict.fromkeys(known, answer)
         graded = exercise.grade(texts)
         return float(graded.points / graded.of)
 
 
-def _bare(text: str) -> str:
-    """What was answered, without what is set behind it."""
-    text = text.strip()
-    for tag in _TAGS:
-        text = text.removesuffix(tag).rstrip()
-    return text
+def _answers(text: str, known: Collection[str]) -> dict[str, str]:
+    """What is answered to each part; what is surely meant as an answer goes before what may be a remark."""
+    sure: dict[str, str] = {}
+    perhaps: dict[str, str] = {}
+    lines = [piece for line in text.splitlines() if line.strip() for piece in _pieces(line)]
+    for line, following in pairwise((*lines, "")):
+        if label := _LABEL.match(line):
+            beside = _AROUND.sub("", line[label.end() :])
+            below = "" if _LABEL.match(following) else _AROUND.sub("", following)
+            found = perhaps if label["perhaps"] or not beside else sure
+            found[(label["sure"] or label["part"] or label["perhaps"]).lower()] = beside or below
+    return {label: answer for label, answer in (perhaps | sure).items() if answer and label in known}
+
+
+def _pieces(line: str) -> list[str]:
+    """A line, or the answers to several parts that stand on it."""
+    return _NEXT.split(line) if _LABEL.match(line) else [line]
 
 
 def _question(data: dict[str, Any]) -> str:

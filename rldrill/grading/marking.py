@@ -225,7 +225,7 @@ class Judging:
             entry = entries.get(part.label)
             text = "" if entry is None else self.pointed(part, entry.text, commas=entry.commas)
             if entry is None or not text.strip():
-                result.append((part.label, entry, self._missing(part)))
+                result.append((part.label, entry, missing(part.points, self._key(part))))
             elif entry.is_cell and self._is_date(part, text.strip()):
                 result.append((part.label, entry, self._date(part, text)))
             else:
@@ -322,12 +322,6 @@ class Judging:
         if part.label not in self._keys:
             self._keys[part.label] = answer_kind(part.kind).write(self.exercise.solution.answers[part.label])
         return self._keys[part.label]
-
-    def _missing(self, part: Part) -> Judged:
-        key = (part.label, "", ())
-        if key not in self._judged:
-            self._judged[key] = missing(part.points, self._key(part))
-        return self._judged[key]
 
     def _is_date(self, part: Part, text: str) -> bool:
         """Whether it is a date; a month may also be the name of a state, and then it can be read."""

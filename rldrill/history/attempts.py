@@ -3,9 +3,9 @@
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from datetime import UTC, datetime
-from typing import Any
+from typing import Annotated, Any
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 from msgspec.structs import asdict, fields, replace
 
 from rldrill.problems.errors import FileError
@@ -37,7 +37,7 @@ class Attempt(Struct, frozen=True):
     """
 
     id: str
-    time: datetime
+    time: Annotated[datetime, Meta(tz=True)]
     sitting: str
     family: str
     level: int | None
@@ -110,7 +110,7 @@ def _attempt(data: Mapping[str, Any]) -> Attempt:
         raise ValueError(f"there is no {min(unknown)[:20]!r}")
     kept = Attempt(**{name: data[name] for name in NAMES})
     for name in ("id", "time", "sitting", "family", "part", "typed", "outcome"):
-        if not _is_text(data[name]):
+        if not (_is_text if name == "typed" else _is_name)(data[name]):
             raise TypeError(f"{name!r} is a text")
     for name, (least, most) in _NUMBERS.items():
         value, kind = data[name], int | float if name in _MAY_BE_BROKEN else int
@@ -120,7 +120,7 @@ def _attempt(data: Mapping[str, Any]) -> Attempt:
             raise TypeError(f"{name!r} is a {whole}number from {least} to {most}")
     if data["outcome"] not in OUTCOMES:
         raise ValueError(f"there is no outcome {data['outcome'][:20]!r}")
-    if not isinstance(data["misconceptions"], list) or not all(map(_is_text, data["misconceptions"])):
+    if not isinstance(data["misconceptions"], list) or not all(map(_is_name, data["misconceptions"])):
         raise TypeError("'misconceptions' is a list of texts")
     time = datetime.fromisoformat(data["time"])
     if time.tzinfo is None:
@@ -134,3 +134,8 @@ def _attempt(data: Mapping[str, Any]) -> Attempt:
 def _is_text(value: object) -> bool:
     """Whether it is a text that a file can hold: half a pair of surrogates is none."""
     return isinstance(value, str) and value.encode("utf-8", "ignore").decode() == value
+
+
+def _is_name(value: object) -> bool:
+    """Whether it is a text that may be shown: control characters would reach the terminal."""
+    return isinstance(value, str) and value.isprintable()

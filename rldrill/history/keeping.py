@@ -34,6 +34,9 @@ class Keeper:
         """What was answered so far; nothing where that cannot be read."""
         try:
             return log.read(self._where())
+        except log.BrokenRowError as error:
+            self._say(f"What you answered before is left out: {error}")
+            return ()
         except _TROUBLE as error:
             self._tell(error)
             return ()

@@ -5,10 +5,12 @@ import sqlite3
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
-from datetime import UTC, datetime
+from datetime import UTC
 from itertools import chain
 from pathlib import Path
 from typing import Any
+
+from msgspec import convert
 
 from rldrill.history.attempts import NAMES, Attempt
 from rldrill.history.place import HistoryError
@@ -38,11 +40,15 @@ _INSERT = f"INSERT OR IGNORE INTO attempt ({', '.join(NAMES)}) VALUES ({', '.joi
 _SELECT = f"SELECT {', '.join(NAMES)} FROM attempt ORDER BY time, rowid"
 
 
+class BrokenRowError(HistoryError):
+    """Another program wrote something into the database; answers can be written to it all the same."""
+
+
 def read(path: Path) -> tuple[Attempt, ...]:
     """All attempts in the order of their times; none where there is no database yet.
 
     Raises:
-        HistoryError: the database is of a newer version.
+        HistoryError: the database is of a newer version, or another program wrote something into it.
         sqlite3.Error: it cannot be read.
     """
     if not path.exists():
@@ -50,10 +56,10 @@ def read(path: Path) -> tuple[Attempt, ...]:
     _refuse_newer(path)
     try:
         with _opened(path) as database:
-            return _attempts(database)
+            return _attempts(database, path)
     except sqlite3.OperationalError:  # a folder that cannot be written: read the file as it lies there
         with closing(sqlite3.connect(f"{path.as_uri()}?mode=ro&immutable=1", uri=True)) as database:
-            return _attempts(database)
+            return _attempts(database, path)
 
 
 def append(path: Path, attempts: Iterable[Attempt]) -> int:
@@ -210,15 +216,15 @@ def _row(attempt: Attempt) -> tuple[Any, ...]:
     return tuple(values.values())
 
 
-def _attempts(database: sqlite3.Connection) -> tuple[Attempt, ...]:
-    rows = (dict(zip(NAMES, row, strict=True)) for row in database.execute(_SELECT))
-    return tuple(
-        Attempt(
-            **row
-            | {
-                "time": datetime.fromisoformat(row["time"]),
-                "misconceptions": tuple(json.loads(row["misconceptions"])),
-            }
-        )
-        for row in rows
-    )
+def _attempts(database: sqlite3.Connection, path: Path) -> tuple[Attempt, ...]:
+    return tuple(_attempt(dict(zip(NAMES, row, strict=True)), path) for row in database.execute(_SELECT))
+
+
+def _attempt(row: dict[str, Any], path: Path) -> Attempt:
+    try:
+        return convert(row | {"misconceptions": json.loads(row["misconceptions"])}, Attempt)
+    except (ValueError, TypeError) as error:
+        raise BrokenRowError(
+            f"{path}: the answer {str(row['id'])[:40]!r} is not as rldrill wrote it ({error}); "
+            "delete this row in SQLite, or move the file elsewhere, and a new one is begun."
+        ) from None

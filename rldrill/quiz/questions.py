@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from datetime import datetime
-from itertools import islice
+from itertools import chain, islice
 
 from rldrill.exam.selection import sequence
 from rldrill.exercise import Exercise, draw, load
@@ -27,12 +27,7 @@ def questions(
     selection(tuple(rest))  # a wrong name is told before a seed is announced
     drawn = (draw(family.name, wanted, own) for family, wanted, own in sequence(rest, level, seed()))
     first = [load(name) for name in named]
-    return _both(first, islice(drawn, max(0, number - len(first)))), max(number, len(first))
-
-
-def _both(first: list[Exercise], drawn: Iterator[Exercise]) -> Iterator[Exercise]:
-    yield from first
-    yield from drawn
+    return chain(first, islice(drawn, max(0, number - len(first)))), max(number, len(first))
 
 
 def planned(plan: Plan, recorder: Recorder, now: Callable[[], datetime], seed: Callable[[], int]) -> Iterator[Exercise]:

@@ -115,6 +115,7 @@ class Screen:
         self._plain = plain
         self._console = console
         self._display = Display(console, ask, plain=plain, said=said)
+        self.redraw = self._display.redraw
         self._print, self._indented, self._signed = self._display.print, self._display.indented, self._display.signed
         self._recorder = recorder or Recorder()
         self._seen = None if seen is None else set(seen)
@@ -123,10 +124,6 @@ class Screen:
         self._pasted: list[str] = []
         self._keys: tuple[str, ...] = KEYS
         self._ahead = Ahead(iter(()))
-
-    def redraw(self) -> None:
-        """Show the page once more, as wide as the window is now."""
-        self._display.redraw()
 
     def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
         """Ask one exercise after the other; every verdict is in the session as soon as it is given.

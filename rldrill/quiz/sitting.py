@@ -4,18 +4,20 @@ import json
 import re
 from collections.abc import Iterator, Sequence
 from datetime import datetime, timedelta
+from itertools import count
 from pathlib import Path
 
 from msgspec import Struct, field
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.files import parse
+from rldrill.files import decoded, parse, shown
 from rldrill.grading.answers_file import WHO, Entry
 from rldrill.grading.marking import Judging, Rules, label_of
 from rldrill.grading.report import MarkedPart, Score, total
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.parts import Part
+from rldrill.spreadsheet import meant
 from rldrill.typed import typed
 from rldrill.writing import alone, write_bytes_atomically
 
@@ -92,18 +94,22 @@ class Sitting(Struct):
         else:
             self.answers.pop(place, None)
 
-    def save(self) -> None:
+    def save(self) -> Path | None:
         """Write the file of answers, whole or not at all; what another terminal wrote there meanwhile stays.
+
+        Returns:
+            Where a copy lies of what somebody wrote there that cannot be read.
 
         Raises:
             OSError: it cannot be written.
         """
         with alone(self.path):
-            self._take_in_others()
+            aside = self._take_in_others()
             text = self._written()
             write_bytes_atomically(self.path, text.encode())
         self._kept = text
         self._changed.clear()
+        return aside
 
     def _written(self) -> str:
         lines = [f"# {' '.join(self.exam.head.title.split())}, version {self.version.code}"]
@@ -120,19 +126,27 @@ class Sitting(Struct):
             ]
         return "\n".join(lines) + "\n"
 
-    def _take_in_others(self) -> None:
-        """Take in what another terminal wrote since this one last did; of one part the later answer stays."""
+    def _take_in_others(self) -> Path | None:
+        """Take in what was written there since this one last did; of one part the later answer stays.
+
+        Returns:
+            Where a copy of it lies, if it cannot be read: nobody's answers may be lost over that.
+        """
         if not self.path.exists():
-            return
+            return None
         mine = {place: self.answers.get(place) for place in self._changed}
         try:
             if (text := self._text()) == self._kept:
-                return
+                return None
             self._take_in(text)
-        except FileError:  # spoilt meanwhile; nobody's answers may be lost over that, so it is written anew
-            return
+        except FileError:
+            names = (self.path.with_name(f"{self.path.name}.{number}") for number in count(1))
+            aside = next(name for name in names if not name.exists())
+            write_bytes_atomically(aside, self.path.read_bytes())
+            return aside
         if self.handed_in is None:
             self.answers = {place: text for place, text in (self.answers | mine).items() if text is not None}
+        return None
 
     def _name(self, problem: int) -> str:
         """What the file calls a problem: its ID, or its number where it has none that is its own."""
@@ -150,30 +164,27 @@ class Sitting(Struct):
         self._kept = text
 
     def _text(self) -> str:
-        try:
-            return self.path.read_text(encoding="utf-8")
-        except UnicodeDecodeError:
-            raise self._no_sitting() from None
+        return decoded(self.path.read_bytes(), shown(self.path))
 
     def _no_sitting(self) -> FileError:
         return FileError(f"{self.path} is not the file of a sitting; name another with --answers.")
 
     def _take_in(self, text: str) -> None:
-        try:
-            data = parse(text, self.path)
-        except FileError:
-            raise self._no_sitting() from None
         moments = [_moment(found) for found in _MOMENT.findall(text)]
-        if not moments or None in moments or not isinstance(data, dict):
+        if not moments or None in moments or not isinstance(data := parse(text, self.path), dict):
             raise self._no_sitting()
-        who = {key: str(name) for key, name in data.items() if key in WHO and isinstance(name, str | int)}
+        fields = {key: field for key, field in zip(data, meant([*data]), strict=True) if field in WHO}
+        for key in fields:
+            name = data[key]
+            if isinstance(name, bool) or not isinstance(name, str | int):
+                raise FileError(f"{self.path}: '{key}' must be a text; write it in quotes.")
         numbers = {self._name(number): number for number in range(len(self.version.exercises))}
         numbers = {str(number + 1): number for number in numbers.values()} | numbers
-        if not data.keys() - who.keys() <= numbers.keys():
+        if not data.keys() - fields.keys() <= numbers.keys():
             raise FileError(f"{self.path} holds answers to other problems; name another file with --answers.")
-        problems = [(numbers[name], parts) for name, parts in data.items() if name not in who]
+        problems = [(numbers[name], parts) for name, parts in data.items() if name not in fields]
         answers = {place: text for number, parts in problems for place, text in self._found(number, parts)}
-        self._who = who
+        self._who = {field: str(data[key]) for key, field in fields.items()}
         self.begun = moments[0] or self.begun
         self.handed_in = moments[1] if _HANDED_IN in text and len(moments) > 1 else None
         self.answers = answers

@@ -62,13 +62,10 @@ class SittingScreen:
         self._plain = plain
         self._console = console
         self._display = Display(console, ask, plain=plain)
+        self.redraw = self._display.redraw
         self._ask, self._print = self._display.ask, self._display.print
         self._now = now
         self._kept, self._told = True, False
-
-    def redraw(self) -> None:
-        """Show the page once more, as wide as the window is now."""
-        self._display.redraw()
 
     def run(self, sitting: Sitting) -> bool:
         """Sit the exam, from the first part without an answer on.
@@ -95,8 +92,11 @@ class SittingScreen:
     def _keep(self, sitting: Sitting) -> None:
         """Write the file of answers; where the disk does not let us, say so once and go on."""
         try:
-            sitting.save()
+            aside = sitting.save()
             self._kept = True
+            if aside is not None:
+                said = f"{sitting.path} was changed meanwhile and could not be read; what stood there is in {aside}."
+                self._print(words((said, "yellow")))
         except OSError as error:
             self._kept = False
             if not self._told:

@@ -237,7 +237,7 @@ def read_matrix(
     """
     source = clean(text, longest)
     if shape and (placed := _by_indices(source, *shape)):
-        arithmetic = Arithmetic()
+        arithmetic = Arithmetic(shape[0] * shape[1])
         return tuple(tuple(_numbers([entry], parameters, None, arithmetic)[0] for entry in row) for row in placed)
     return _forms(
         source, lambda member: _matrix(member, shape, parameters), lambda rows: _given(chain.from_iterable(rows))

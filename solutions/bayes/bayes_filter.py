@@ -8,7 +8,7 @@ from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import ONE, exact, told
+from rldrill.solutions.exact import ONE, equals, exact, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -55,7 +55,7 @@ def _filter(
         if len(states) == 2:
             (other,) = (name for name in states if name != state)
             settled = {name: share if name == state else ONE - share for name in states}
-            work.say(f"After the first step $p({state}) = {told(share)}$, so that $p({other}) = {told(ONE - share)}$.")
+            work.say(f"After the first step $p({state}) {equals(share)}$, so that $p({other}) {equals(ONE - share)}$.")
         else:
             work.say(f"With this ${shown(Parameter(given.left_open[0]))}$ the first step is:")
         start = knowns.settled(start, value)

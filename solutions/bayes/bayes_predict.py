@@ -7,7 +7,7 @@ from rldrill.problems.bayes.bayes_predict import Given
 from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import exact, told
+from rldrill.solutions.exact import equals, exact
 from rldrill.solutions.found import put_in_found
 from rldrill.solutions.oracle import OPEN, Answers, at
 from rldrill.solutions.sheet.bayes import MOTION_AS_LIKELIHOOD, MOTION_TRANSPOSED, PREDICT
@@ -39,7 +39,7 @@ def solve(given: Given, work: Work) -> None:
         found = work.answer(work.equate(letter, there, exact(given.outcome.probability), share=True))
         belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
         for then in before:
-            work.say(f"With ${q} = {told(found)}$ this is:")
+            work.say(f"With ${q} {equals(found)}$ this is:")
             belief = work.answer(
                 {state: put_in_found(work, PREDICT, letter, there, found, s1=state) for state, there in then.items()}
             )

@@ -6,7 +6,7 @@ from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import ONE, Value, exact, told
+from rldrill.solutions.exact import ONE, Value, equals, exact
 from rldrill.solutions.formula.nodes.sets import LONG
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import OPEN, Answers, at
@@ -65,7 +65,7 @@ def _first(given: Given, work: Work, letter: str, known: dict[str, Any]) -> dict
     belief = {name: share if name == outcome.state else ONE - share for name in hypotheses}
     (other,) = (name for name in hypotheses if name != outcome.state)
     work.say(
-        f'After the first measurement $p("{outcome.state}") = {told(share)}$, so $p("{other}") = {told(ONE - share)}$.'
+        f'After the first measurement $p("{outcome.state}") {equals(share)}$, so $p("{other}") {equals(ONE - share)}$.'
     )
     return belief
 

@@ -10,7 +10,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import Equation, joined
 from rldrill.problems.exact import needed, shown
-from rldrill.solutions.exact import NoSolution, Value, exact, near, order, sign, simplest, tidy, to_sympy, told
+from rldrill.solutions.exact import NoSolution, Value, equals, exact, near, order, sign, simplest, tidy, to_sympy, told
 from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.nodes.leaves import leaf
@@ -116,7 +116,7 @@ def _fit(work: Work, data: Data, model: str) -> Value:
             else work.step(COIN_ML, heads=sum(heads.values(), exact(0)), tails=sum(tails.values(), exact(0)))
         )
         theta = dict.fromkeys(heads, share)
-        work.say(f"$θ̂_c = {told(share)}${' for every coin' if several else ''}")
+        work.say(f"$θ̂_c {equals(share)}${' for every coin' if several else ''}")
     taken_apart = dict.fromkeys(_taken_apart(chance) for share in theta.values() for chance in (share, 1 - share))
     if told_apart := ", ".join(filter(None, taken_apart)):
         work.say(f"${told_apart}$")
@@ -129,7 +129,7 @@ def _fit(work: Work, data: Data, model: str) -> Value:
 
 def _added(index: str, counts: Mapping[str, Value]) -> str:
     """How often all coins fell on a side, ``n₁ = 16 + 2 = 18``."""
-    return f"$n_{index} = {' + '.join(map(told, counts.values()))} = {told(sum(counts.values(), exact(0)))}$"
+    return f"$n_{index} = {' + '.join(map(told, counts.values()))} {equals(sum(counts.values(), exact(0)))}$"
 
 
 class _Collected(Step):

@@ -6,7 +6,7 @@ from rldrill.problems.control.epsilon_greedy import Given
 from rldrill.problems.exact import shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import NoSolution, Value, exact, sign, told
+from rldrill.solutions.exact import NoSolution, Value, equals, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import epsilon_greedy
 from rldrill.solutions.numerics import np
@@ -61,7 +61,7 @@ def _rate(given: Given, work: Work, found: Value, wanted: Fraction) -> Value:
     """
     epsilon = work.equate(given.left_open[0], found, exact(wanted))
     if work.misconception is None and (sign(epsilon) < 0 or sign(epsilon - 1) > 0):
-        raise NoSolution(f"no ε from 0 to 1 leads to {shown(wanted)}, only ε = {told(epsilon)}; change what is given")
+        raise NoSolution(f"no ε from 0 to 1 leads to {shown(wanted)}, only ε {equals(epsilon)}; change what is given")
     return epsilon
 
 

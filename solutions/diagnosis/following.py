@@ -43,7 +43,7 @@ _COUNTED = re.compile(r"\A\s*(?:\(\w\)|\[\w\])\.?(?:\s+|\Z)")
 #: Between two equations on a line: V(cool) = 3, V(warm) = 4.
 _NEXT_ONE = re.compile(r"(?<=[\w.)\]])(?:[,;]| and)\s+(?=[^\W\d][\w′']*(?:\([^()]*\))?\s*[=≈←])")
 #: Four words, one after the other: what is said in a sentence need not be a step.
-_SENTENCE = re.compile(r"(?:[^\W\d_]{2,}\s+){3}[^\W\d_]{2,}")
+_SENTENCE = re.compile(r"(?<![^\W\d_])(?:[^\W\d_]{2,}+\s++){3}[^\W\d_]{2}")
 #: The brackets in which more than one sign is above or below a letter: V^(π₀)(cool).
 _SCRIPT = re.compile(r"[_^][({]([^(){}]*)[)}]")
 #: What stands behind a letter for a sign above it.
@@ -57,7 +57,7 @@ _BULLETS = ("- ", "− ", "– ", "+ ", "* ", "• ")
 #: What gives a value to a name has none of its own before it: "- V(cool) = 2" is an item of a list.
 _ITEM = re.compile(r"[-+−] *[^\W\d][\w′']*(?:\([^()]*\))? *[=≈←:]")
 #: A line to which others are joined is not longer.
-_LONGEST = 4000
+_LONGEST = 1000
 #: One row of a matrix that is written over several lines.
 _ROW = re.compile("[⎡-⎦]")
 #: What stands before a bracket, and is no function: a factor without a value, c(3 − 1), or a name.
@@ -136,13 +136,16 @@ class _Follower:
         listed = len(typed) > 1 and any(all(text.startswith(sign) for text in typed) for sign in _BULLETS)
         stripped = [text[1:].strip() for text in typed] if listed else typed
         goes_on = [False, *starmap(_goes_on, pairwise(stripped))]
-        whole = ""
+        whole, line = "", Line("", Standing.UNREAD)
         for number, text in enumerate(stripped):
             if not goes_on[number]:
                 before = f"{whole} " if text.startswith("=") and len(whole) < _LONGEST else ""
                 end = next((later for later in range(number + 1, len(stripped)) if not goes_on[later]), len(stripped))
                 whole = before + " ".join(stripped[number:end])
-            yield replace(self._line(whole), text=typed[number])
+                line = self._line(whole)
+            elif line.standing in _WRONG:
+                line = replace(line, standing=Standing.FOLLOWS, causes=(), sides=())
+            yield replace(line, text=typed[number])
 
     def _line(self, text: str) -> Line:
         """A line, by the first of its equations that goes wrong."""

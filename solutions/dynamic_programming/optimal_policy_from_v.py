@@ -8,7 +8,7 @@ from flint import fmpq
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.problems.valued import ROUNDING
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ONE, NoSolution, Value, exact, parameters, told
+from rldrill.solutions.exact import ONE, NoSolution, Value, equals, exact, parameters
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
@@ -99,7 +99,7 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tup
     values = dict(fixed)
     if again:
         beaten = [other for other in again if other != action]
-        work.say(f"The greatest of these is $x = {told(largest)}$, that of {action}.{' With this $x$:' * bool(beaten)}")
+        work.say(f"The greatest of these is $x {equals(largest)}$, that of {action}.{' With this $x$:' * bool(beaten)}")
         for other in beaten:
             values[state, other] = work.step(
                 Q_STAR_FROM_V, s=state, a=other, **{**known, "V": {**known["V"], state: largest}}

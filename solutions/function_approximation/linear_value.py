@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from rldrill.problems.exact import Parameter
 from rldrill.problems.function_approximation.linear_value import Bumps, Given
 from rldrill.solutions.centres import distances, measured
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign, told
+from rldrill.solutions.exact import ZERO, NoSolution, Value, equals, exact, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.found import put_in_found
@@ -90,7 +90,7 @@ def _state_sought(given: Given, bumps: Bumps, work: Work, places: Callable[[Give
         raise NoSolution("between the centres one action is always better than the other; change theta")
     work.answer(state)
     work.answer(_at(work, given.actions[0], both, state))
-    work.say(f"At $c_1$, where $x = {told(exact(left))}$:")
+    work.say(f"At $c_1$, where $x {equals(exact(left))}$:")
     _greedy(work, {("s", a): _at(work, a, both, exact(left)) for a in given.actions}, given.actions)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from rldrill.problems.exact import Parameter, Scalar, needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.return_infinite import Given
-from rldrill.solutions.exact import Value, exact, told
+from rldrill.solutions.exact import Value, equals, exact, told
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
@@ -58,7 +58,7 @@ def _in_the_round(given: Given, work: Work, known: Value) -> None:
     work.say(f"$R_0$ must be ${told(known)}$:")
     tail = work.answer(work.equate("y", value, known))
     value = _tail(given, work, exact)
-    work.say(f"This must be $y = {told(tail)}$:")
+    work.say(f"This must be $y {equals(tail)}$:")
     work.answer(work.equate(given.letter, value, tail))
 
 

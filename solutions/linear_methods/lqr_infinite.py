@@ -12,7 +12,7 @@ from rldrill.problems.exact import needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
-from rldrill.solutions.exact import ZERO, NoSolution, Value, decimal, exact, is_rational, to_sympy, told
+from rldrill.solutions.exact import ZERO, NoSolution, Value, decimal, equals, exact, is_rational, to_sympy, told
 from rldrill.solutions.formula.putting_in import put_in, sum_of
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import np
@@ -89,10 +89,10 @@ def _goes_to_zero(given: Given, factors: tuple[Value, ...]) -> str:
     if given.gamma == 1:
         if many:
             return f"{loop} at every time, all between $−1$ and $1$: the state goes to $0$, as it must."
-        value = f"= {told(factors[0])}" if is_rational(factors[0]) else f"≈ {decimal(factors[0], 4)}"
+        value = equals(factors[0]) if is_rational(factors[0]) else f"≈ {decimal(factors[0], 4)}"
         return f"$A − B {given.notation.gain} {value}$ is between $−1$ and $1$: stable, as it must be."
     gamma = exact(given.gamma)
-    squares = joined([f"${told(gamma)}·{_squared(each)} = {told(gamma * each**2)}$" for each in dict.fromkeys(factors)])
+    squares = joined([f"${told(gamma)}·{_squared(each)} {equals(gamma * each**2)}$" for each in dict.fromkeys(factors)])
     lead = f"The {what} are multiplied by {numbers}, and " if many else f"$γ (A − B {given.notation.gain})^2$ is "
     below = "both below" if " and " in squares else "below"
     return f"{lead}{squares}, {below} $1$: $γ^{{t/2}} {given.notation.state}_t$ goes to $0$, as it must."
@@ -185,7 +185,7 @@ def _which(given: Given, value: str, product: Value, cost: Value, *, rests: bool
         if product != 0
         else f"is $0$, so one of them is, and the other {never}"
     )
-    why = f", since $Q R − N^2 = {told(cost)}$ is not negative" if given.N else ""
+    why = f", since $Q R − N^2 {equals(cost)}$ is not negative" if given.N else ""
     root = "that root" if product != 0 else "$0$"
     return (
         f"The product of the two roots, ${told(product)}$, {one}. No {what} is {never}{why}, and neither is a sum "
@@ -329,7 +329,7 @@ def _by_modes(work: Work, given: Given, modes: _Modes) -> AnyMatrix:
             _taken_apart(work, modes, letters)
     for mode in modes.counted:
         numbers = modes.numbers(mode)
-        own = ", ".join(f"{_letter(name, modes.kind, mode)} = {told(numbers[name])}" for name in letters)
+        own = ", ".join(f"{_letter(name, modes.kind, mode)} {equals(numbers[name])}" for name in letters)
         work.say(f"{_called(modes, mode)}: ${own}$.")
     roots = [_root(work, given, modes.numbers(mode), modes.kind, mode) for mode in modes.counted]
     return _back(work, modes, given.notation.value, roots)

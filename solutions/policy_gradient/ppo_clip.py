@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from rldrill.problems.exact import Weight, needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.ppo_clip import CUT, Given, Sample
-from rldrill.solutions.exact import ZERO, NoSolution, Value, absolute, exact, largest, sign, simplest, told
+from rldrill.solutions.exact import ZERO, NoSolution, Value, absolute, equals, exact, largest, sign, simplest, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -154,7 +154,7 @@ def _thresholds(work: Work, known: Mapping[str, Any]) -> None:
             left[time] = _at_the_bound(work, {**known, "epsilon": ZERO}, time, "→")
         else:
             left[time] = known["unclipped"][time]
-            work.say(f"$L_{{{time}}}$ stays the unclipped term, $u_{{{time}}} = {told(left[time])}$.")
+            work.say(f"$L_{{{time}}}$ stays the unclipped term, $u_{{{time}}} {equals(left[time])}$.")
     work.answer(work.step(PPO_BATCH, L_t=left, sign="→", **known) if len(left) > 1 else left[0])
 
 
@@ -183,7 +183,7 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
     work.say(
         f"Clipping lowers an objective only where the advantage is positive and the ratio above $1$, or the advantage "
         f"negative and the ratio below $1$. That is so at $t = {one}$ alone; the other objectives are the unclipped "
-        f"terms. The mean of all unclipped terms is ${told(unclipped)}$, but $L = {told(objective)}$ is less by "
+        f"terms. The mean of all unclipped terms is ${told(unclipped)}$, but $L {equals(objective)}$ is less by "
         f"${told(unclipped - objective)}$, so "
         f"$ρ_{{{one}}}$ is clipped. For such a sample:"
     )
@@ -193,8 +193,8 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
     if sign(epsilon) <= 0 or sign(absolute(known["rho"][one] - 1) - epsilon) <= 0:
         raise NoSolution("no ε gives this objective")
     edge, side = (1 + epsilon, "above $1 + ε") if above else (1 - epsilon, "below $1 − ε")
-    ratio = told(known["rho"][one])
-    work.say(f"With this $ε$ the ratio $ρ_{{{one}}} = {ratio}$ lies {side} = {told(edge)}$: it is clipped indeed.")
+    ratio = equals(known["rho"][one])
+    work.say(f"With this $ε$ the ratio $ρ_{{{one}}} {ratio}$ lies {side} {equals(edge)}$: it is clipped indeed.")
     work.answer(epsilon)
 
 

@@ -90,6 +90,12 @@ def test_the_entries_of_a_matrix_by_their_indices(text: str) -> None:
     assert [[each and each.value for each in row] for row in read_matrix(text, (2, 2))] == [[1, 2], [3, 4]]
 
 
+def test_entries_by_their_indices_may_be_as_long_as_in_rows() -> None:
+    entry = "sqrt(6)/4 + sqrt(2)/4"
+    named = read_matrix(", ".join(f"R{i}{j} = {entry}" for i in (1, 2, 3) for j in (1, 2, 3)), (3, 3))
+    assert named == read_matrix("; ".join([", ".join([entry] * 3)] * 3), (3, 3))
+
+
 @pytest.mark.parametrize("text", ["J11 = 1, J12 = 2, J21 = 3", "J11 = 1, J11 = 2, J21 = 3, J22 = 4", "x = 5, v = 1"])
 def test_entries_of_a_matrix_that_are_not_all_there(text: str) -> None:
     with pytest.raises(Unreadable):

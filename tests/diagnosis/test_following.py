@@ -6,6 +6,8 @@ from fractions import Fraction
 import pytest
 
 import rldrill
+from promptness import at_once
+from rldrill.problems.notations import used
 from rldrill.solutions.diagnosis.written_line import _apart, numbers_typed
 
 # As in test_diagnosing.py: cave ← 10, floor ← 5, cave ← 17/4.
@@ -308,3 +310,17 @@ def test_a_sum_goes_on_in_the_next_line_and_a_list_has_items(lines: list[str]) -
 def test_a_sum_that_goes_on_wrongly_is_found_there() -> None:
     standings = [line.standing for line in LONG_SUM.follow(["R0 = 3 + 1/2*4", "- 1/4*8", "= 4"]).lines]
     assert standings == ["right", "right", "miscalculated"]
+
+
+@pytest.mark.parametrize("lines", [["R0 = 1", *["+ 1"] * 2000], ["R0 = 1", *["= 1"] * 200], ["x" * 100_000]])
+def test_what_is_pasted_without_end_takes_no_time(lines: list[str]) -> None:
+    exercise = rldrill.load("return/1/430")
+    exercise.follow(["1"])  # what is compared with is made once
+    with at_once():
+        assert len(exercise.follow(lines).lines) == len(lines)
+
+
+def test_a_line_is_handed_back_as_it_was_typed() -> None:
+    with used("control"):
+        told = rldrill.load("linearise/1/5").follow(["A_21 = $-10$", " ", "$5$"])
+    assert [line.text for line in told.lines] == ["A_21 = $-10$", "$5$"]

@@ -67,29 +67,10 @@ def test_an_older_revision_is_made_from_its_givens(exam: Exam, path: Path) -> No
     assert [item.solve() for item in again.exercises] == [item.solve() for item in exam.versions[0].exercises]
 
 
-def test_format_1_is_read(tmp_path: Path) -> None:
-    problem = {"family": "return", "given": {"gamma": "1/2", "rewards": ["1", "4"], "time": 0}}
-    entry = {
-        "number": 1, "id": "return/1/3@1", "points": 2, "parts": [{"part": "a", "kind": "number", "points": 2}],
-        "problem": problem,
-    }  # fmt: skip
-    data = {
-        "format": 1, "rldrill": "0.1.0", "title": "Old", "seed": 3, "level": None, "names": [], "paper": "letter",
-        "versions": [{"code": "A", "points": 2, "problems": [entry]}],
-    }  # fmt: skip
-    path = tmp_path / "old.json"
-    path.write_text(json.dumps(data))
-    exam = read_manifest(path)
-    assert (exam.head.title, exam.layout.paper, exam.layout.ids) == ("Old", "letter", True)
-    (exercise,) = exam.versions[0].exercises
-    assert exercise.answers() == {"a": 3}  # 1 + 1/2 · 4
-    assert exercise.grade({"a": "3"}).points == 2
-
-
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (lambda data: data.update(format=3), "its format is 3, and this release reads formats 1 and 2"),
+        (lambda data: data.update(format=3), "its format is 3, and this release reads format 2"),
         (
             lambda data: data.update(versions=[]),
             "the manifest is damaged at versions (is empty; it needs at least 1 entry); take it from a backup",

@@ -53,17 +53,25 @@ def test_what_does_not_exist_is_refused() -> None:
 def test_answers_may_be_set_as_models_set_them() -> None:
     dataset = reasoning_gym.create_dataset("rldrill", names=("return",), level=1, seed=3, size=1)
     first, second = (line.partition(" ")[2] for line in dataset[0]["answer"].splitlines())
-    for form in ("**({}) {}**", "- ({}) {}", "Part ({}): {}", "**({})** {}", "({}) $\\boxed{{{}}}$", "{}. {}"):
+    for form in (
+        "**({}) {}**", "- ({}) {}", "Part ({}): {}", "**({})** {}", "({}) $\\boxed{{{}}}$", "{}. {}", "({}) **{}**",
+        "### ({}) {}", "> ({}) {}", "1. ({}) {}", "| ({}) | {} |", "|{}|{}|", "({})\n{}", "## Part {}\n\n{}",
+        "({}): **{}**.", "({}) `{}`", "**Part {}**: {}",
+    ):  # fmt: skip
         text = "\n".join(form.format(label, value) for label, value in (("a", first), ("b", second)))
         assert dataset.score_answer(text, dataset[0]) == 1, text
     assert dataset.score_answer(f"<answer>{dataset[0]['answer']}</answer>", dataset[0]) == 1
     for said in ("The answer is: ", "Answer: ", "**Final answer:** ", "the final answer is "):
         assert dataset.score_answer(said + dataset[0]["answer"], dataset[0]) == 1, said
     assert dataset.score_answer(f"\\boxed{{{dataset[0]['answer']}}}", dataset[0]) == 1
-    capitals = dataset[0]["answer"].replace("(a)", "(A)").replace("(b)", "(B)")
-    assert dataset.score_answer(capitals, dataset[0]) == 1
+    for between in (", ", "; ", " and ", ", and "):
+        assert dataset.score_answer(f"(a) {first}{between}(b) {second}", dataset[0]) == 1, between
+    assert dataset.score_answer(f"(A) {first}\n(B) {second}", dataset[0]) == 1
+    assert dataset.score_answer(f"A) {first}\nB) {second}", dataset[0]) == 1
     # "A." may begin a list of what was done, and is no part.
     assert dataset.score_answer(f"{dataset[0]['answer']}\nA. First I added the rewards.", dataset[0]) == 1
+    # So may "a.", and a remark takes the place of no answer.
+    assert dataset.score_answer(f"{dataset[0]['answer']}\n\na. note that this is exact", dataset[0]) == 1
     # A part without its answer takes none from the next one.
     assert dataset.score_answer(f"(a)\n(b) {second}", dataset[0]) == 0.5
 

@@ -98,6 +98,7 @@ def test_lines_of_json_are_read_again() -> None:
         (to_line(FIRST).replace('"level": 1', '"level": 99'), "'level' is a whole number from 1 to 3"),
         (to_line(FIRST).replace('"retries": 0', '"retries": -1'), "'retries' is a whole number from 0"),
         (to_line(FIRST).replace('"one"', '"\\ud800"'), "'sitting' is a text"),
+        (to_line(FIRST).replace("[]", '["\\u001b[31mx"]'), "'misconceptions' is a list of texts"),
         (to_line(FIRST).replace("2026-11-25", "9999-12-31"), "'time' is in a year from 1970 to 2199"),
         (to_line(FIRST).replace("2026-11-25T08:00:00+00:00", "0001-01-01T00:00:00+14:00"), "line 1"),
     ],
@@ -226,6 +227,28 @@ def test_a_file_that_is_no_database_is_told_and_left_alone(tmp_path: Path) -> No
     keeper.keep(FIRST)
     assert len(said) == 1
     assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    "values", ["misconceptions = 'x'", "misconceptions = '[1]'", "time = 'noon'", "time = '2026-11-25'", "level = 'x'"]
+)
+def test_a_row_that_another_program_wrote_is_named_and_a_quiz_goes_on(tmp_path: Path, values: str) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST])
+    with closing(sqlite3.connect(path)) as database:
+        database.execute("DROP TRIGGER nothing_changes")
+        database.execute(f"UPDATE attempt SET {values}")
+        database.commit()
+    with pytest.raises(HistoryError, match=r"history\.db: the answer '1' is not as rldrill wrote it"):
+        log.read(path)
+    said: list[str] = []
+    keeper = Keeper(said.append, lambda: path)
+    assert keeper.read() == ()
+    keeper.keep(SECOND)
+    keeper.close()
+    assert len(said) == 1
+    with closing(sqlite3.connect(path)) as database:
+        assert database.execute("SELECT count(*) FROM attempt").fetchone() == (2,)
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write everywhere")

@@ -150,6 +150,20 @@ def test_a_policy_that_is_the_same_everywhere_may_be_written_once(policy: Any, v
     assert rldrill.read(problem).answers() == {"a": dict(zip("AB", values, strict=True))}
 
 
+@pytest.mark.parametrize(("A", "B"), [("top-left", "-1"), ("(0,0)", "(0,1)"), ("1", "2")])
+def test_a_policy_as_a_text_may_be_of_cells_of_a_grid(A: str, B: str) -> None:
+    names = {"A": A, "B": B}
+    model = {"transitions": [[names.get(str(each), each) for each in row] for row in TWO["transitions"]]}
+    given = {"mdp": model, "gamma": 0.5, "policy": f"{A}: go, {B}: stay"}
+    assert rldrill.read({"family": "policy-value", "given": given}).answers() == {"a": {A: 5, B: 0}}
+
+
+def test_an_action_with_two_probabilities_is_refused() -> None:
+    policy = [["A", "go", 0.3], ["A", "go", 1], ["B", "go", 1]]
+    with pytest.raises(FileError, match="'go' stands twice in 'A'"):
+        rldrill.read({"family": "policy-value", "given": {"mdp": TWO, "gamma": 0.5, "policy": policy}})
+
+
 def test_the_episodes_of_sutton_and_barto_as_they_print_them() -> None:
     """Example 6.4: batch TD(0) gives A and B 3/4, Monte Carlo gives A 0."""
     given = {"episodes": "A, 0, B, 0\n" + "B, 1\n" * 6 + "B, 0\n", "gamma": 1}
@@ -251,6 +265,7 @@ ROWS = [["A", "go", "A", 1, 1]]
         ("policy-value", {"mdp": {"transitions": ROWS}, "gamma": "1/2", "policy": [["A", "go"]]}),
         ("policy-value", {"mdp": {"transitions": "A go A 1 1"}, "gamma": "1/2"}),
         ("policy-value", {"mdp": ROWS, "gamma": "1/2"}),
+        ("policy-value", {"mdp": {"transitions": {"A": {"go": {"A": [1, 5]}}}}, "gamma": "1/2"}),
         ("policy-value", {"mdp": {"P": "[[[1]]]", "R": "[1]"}, "gamma": "1/2"}),
         ("policy-value", {"mdp": {"P": {"go": [[1]]}, "R": {"go": [1]}}, "gamma": "1/2"}),
         ("action-value", {"dynamics": ROWS, "values": {"A": 1}, "gamma": "1/2"}),

@@ -437,6 +437,30 @@ def test_arrays_with_names(names: dict[str, Any]) -> None:
     assert Model.model_validate(ends).terminal == ("high",)
 
 
+def test_arrays_by_the_names_of_actions_take_their_order_and_names_from_a_list() -> None:
+    go, stay = [[0, 1], [1, 0]], [["1/2", "1/2"], [0, 1]]
+    named = {"R": [[0, 1], [2, 3]], "states": ["low", "high"], "actions": ["go", "stay"]}
+    plain = Model.model_validate({"P": [go, stay]} | named)
+    assert Model.model_validate({"P": {"stay": stay, "go": go}} | named) == plain
+    assert Model.model_validate({"P": {"0": go, "1": stay}} | named) == plain
+    with pytest.raises(ValidationError, match="actions: go, stay are not those of P, a, b"):
+        Model.model_validate({"P": {"a": go, "b": stay}} | named)
+    same = {"states": ["a", "b"], "actions": ["b", "a"], "R": {"a": [1, 2], "b": [3, 4]}}
+    with pytest.raises(ValidationError, match="its names are those of states and of actions"):
+        Model.model_validate({"P": [go, stay]} | same)
+
+
+@pytest.mark.parametrize("names", [("x", "y"), ("p", "q"), ("1", "2"), ("0", "1"), ("A", "B")])
+def test_what_an_action_leads_to_for_sure_may_have_any_name(names: tuple[str, str]) -> None:
+    one, two = names
+    table = {one: {"go": two, "stay": one}, two: {"go": {one: "1/2", two: "1/2"}}}
+    rows = [[one, "go", two, 1, 1], [one, "stay", one, 1, 1], [two, "go", one, "1/2", 2], [two, "go", two, "1/2", 2]]
+    assert Model.model_validate({"transitions": table, "rewards": {one: 1, two: 2}}) == process(*rows)
+    alone = {one: {one: "1/2", two: "1/2"}, two: {two: 1}}
+    rows = [[one, one, "1/2", 1], [one, two, "1/2", 1], [two, two, 1, 2]]
+    assert Model.model_validate({"transitions": alone, "rewards": {one: 1, two: 2}}) == process(*rows)
+
+
 @pytest.mark.parametrize(
     ("P", "R", "says"),
     [

@@ -402,12 +402,42 @@ def test_what_is_handed_in_elsewhere_is_over_here(sitting: Sitting) -> None:
 def test_a_file_that_was_spoilt_meanwhile_costs_no_answer(sitting: Sitting) -> None:
     sitting.answer(Place(0, 0), "1")
     sitting.save()
-    sitting.path.write_bytes(b"\xff\xfe")
+    sitting.path.write_bytes(b"\xff\xfe\xff")
     sitting.answer(Place(0, 1), "2")
-    sitting.save()
+    aside = sitting.save()
+    assert aside == sitting.path.with_name(f"{sitting.path.name}.1")
+    assert aside.read_bytes() == b"\xff\xfe\xff"
     again = Sitting(sitting.exam, sitting.version, sitting.path, START)
     again.resume()
     assert again.answers == {Place(0, 0): "1", Place(0, 1): "2"}
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("name", ["student", "name", '"Full name"'])
+def test_the_file_may_be_edited_as_verify_reads_it(sitting: Sitting, name: str, encoding: str) -> None:
+    sitting.answer(Place(0, 0), "1")
+    sitting.save()
+    edited = sitting.path.read_text(encoding="utf-8").replace('a = "1"', 'a = "2"')
+    head, _, rest = edited.partition("\n[")
+    sitting.path.write_text(f'{head}{name} = "Ann"\n[{rest}', encoding=encoding)
+    again = Sitting(sitting.exam, sitting.version, sitting.path, START)
+    again.resume()
+    sitting.answer(Place(0, 1), "3")
+    assert sitting.save() is None
+    assert sitting.answers == again.answers | {Place(0, 1): "3"} == {Place(0, 0): "2", Place(0, 1): "3"}
+    assert 'student = "Ann"' in sitting.path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("slip", "told"), [("student = true", "must be a text"), ("student = Ann", "line 3")])
+def test_a_slip_in_an_edited_file_is_told_and_set_aside(sitting: Sitting, slip: str, told: str) -> None:
+    sitting.save()
+    edited = sitting.path.read_text(encoding="utf-8").replace("\n\n[", f"\n{slip}\n\n[", 1)
+    sitting.path.write_text(edited, encoding="utf-8")
+    with pytest.raises(FileError, match=told):
+        Sitting(sitting.exam, sitting.version, sitting.path, START).resume()
+    _, text, _ = sit(sitting, "5", "leave")
+    assert "could not be read; what stood there is in" in " ".join(text.split())
+    assert sitting.path.with_name(f"{sitting.path.name}.1").read_text(encoding="utf-8") == edited
 
 
 def test_where_an_id_stands_twice_in_an_old_manifest_the_problems_are_called_by_their_numbers(
@@ -488,6 +518,9 @@ def test_who_sits_it_stays_in_the_file_and_problems_may_be_called_by_their_numbe
         '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\ncount = 2\n',
         '[[problems]]\nid = "return/1/430"\n',
         'seed = 6\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\nlevel = 3\n',
+        '[[problems]]\nid = "return/1/430"\n[[problems]]\ntopic = "bayes"\n',
+        'points = 30\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
     ],
 )
 def test_next_weeks_quiz_of_the_same_title_does_not_go_on_with_this_weeks(tmp_path: Path, other: str) -> None:
@@ -496,7 +529,8 @@ def test_next_weeks_quiz_of_the_same_title_does_not_go_on_with_this_weeks(tmp_pa
     path.write_text(f"seed = 5\n{text}", encoding="utf-8")
     begun = _begun(path, saved, None)
     path.write_text(text.replace("10", "20"), encoding="utf-8")  # more time is no other exam
-    assert _begun(path, saved, None).versions == begun.versions
+    longer = _begun(path, saved, None)
+    assert (longer.versions, longer.head.duration) == (begun.versions, 20)
     path.write_text(other, encoding="utf-8")
     with pytest.raises(UsageError, match="holds another exam that was begun"):
         _begun(path, saved, None)

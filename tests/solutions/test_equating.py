@@ -66,7 +66,7 @@ def test_a_letter_below_the_line_beside_a_closed_form() -> None:
 
 def test_a_closed_form_that_the_letter_cannot_be_is_told_as_a_decimal() -> None:
     # √2 w = 1 − 2√2: w = √2/2 − 2 = −1.2929.
-    with pytest.raises(NoSolution, match="w would have to be about −1"):
+    with pytest.raises(NoSolution, match="w would have to be ≈ −1"):
         Work().equate("w", sympy.sqrt(2) * generator("w"), 1 - 2 * sympy.sqrt(2), positive=True)
 
 

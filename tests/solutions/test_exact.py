@@ -4,6 +4,7 @@ import operator
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import permutations
+from pathlib import Path
 
 import pytest
 import sympy
@@ -27,6 +28,7 @@ from rldrill.solutions.exact import (
     digits,
     enclosure,
     equal,
+    equals,
     exact,
     is_whole,
     is_zero,
@@ -383,3 +385,9 @@ def test_values_of_other_forms_may_be_equal() -> None:
 def test_a_product_of_sums_of_numbers_comes_last_and_is_not_multiplied_out() -> None:
     long = (1 + sympy.pi) ** 40 * (2 + sympy.E) ** 40  # some 1,600 terms
     assert ordered(long + sympy.pi**2 + 3).args == (3, sympy.pi**2, long)
+
+
+def test_a_rounded_number_in_a_sentence_equals_nothing() -> None:
+    assert (equals(fmpq(-3, 4)), equals(-sqrt(2))) == ("= −3/4", "≈ −1.41421")
+    solvers = Path(__file__).parents[2].joinpath("solutions").rglob("*.py")
+    assert not [path for path in solvers if "= {told(" in path.read_text(encoding="utf-8")]

@@ -82,11 +82,6 @@ class Over(Node):
         return self.args[2]
 
     @property
-    def bound_symbols(self) -> list[sympy.Symbol]:
-        """The letter that runs is not free."""
-        return [self.index]
-
-    @property
     def free_symbols(self) -> set[sympy.Symbol]:
         """The letters that a value must be given for."""
         return (self.body.free_symbols - {self.index}) | self.domain.free_symbols
