@@ -12,6 +12,9 @@ from rldrill.solutions.vector import Vector
 
 Slip = tuple[str, Any]
 
+#: In a number of more digits than this none are exchanged.
+MOST_DIGITS = 7
+
 
 def slips(value: Any) -> Iterator[Slip]:
     """What may be written for a value by a slip, the likeliest first."""
@@ -77,7 +80,7 @@ def _of_rational(value: fmpq) -> Iterator[Slip]:
 
 def _digits_swapped(number: int) -> Iterator[int]:
     digits = str(number)
-    if len(digits) > 7:
+    if len(digits) > MOST_DIGITS:
         return
     for place in range(len(digits) - 1):
         if digits[place] != digits[place + 1] and (place or digits[1] != "0"):

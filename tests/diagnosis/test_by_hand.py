@@ -37,6 +37,25 @@ def test_updates_that_are_all_worked_out_with_the_first_values_are_added_up() ->
     assert said.startswith("It looks as if the old values are used all along, though some of them have been updated")
 
 
+# R₀ = 1 + 3/4·2 + 9/16·44 = 27.25
+FAR_REWARD = {"family": "return", "given": {"rewards": [1, 2, 44], "gamma": "3/4", "time": 0}}
+
+
+@pytest.mark.parametrize("typed", ["27.4", "27.1"])
+def test_a_last_digit_that_is_one_off_is_a_matter_of_rounding(typed: str) -> None:
+    # With 0.5652 for 9/16 = 0.5625 it would be 27.37, which rounds to 27.4.
+    exercise = rldrill.read(FAR_REWARD)
+    verdict = exercise.check(typed)
+    assert verdict.outcome is Outcome.CLOSE
+    assert exercise.diagnose(typed).of(verdict) == verdict.says
+
+
+def test_digits_that_are_exchanged_are_shown_as_digits() -> None:
+    # 1 + 3/2 + 0.5652·44 = 27.3688
+    said = rldrill.read(FAR_REWARD).diagnose("27.3688").sentence
+    assert "the digits of γⁱ = 0.5625 are exchanged: 0.5652" in said
+
+
 @pytest.mark.parametrize("family", ["optimal-value", "policy-value"])
 def test_in_a_large_problem_what_is_close_is_taken_for_close_at_once(
     monkeypatch: pytest.MonkeyPatch, family: str
