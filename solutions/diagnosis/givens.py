@@ -38,6 +38,11 @@ _ENTRIES = {
     "w": "weights",
 }
 
+#: Lists of names that are gone through one after the other, each with the table of its own.
+_IN_TURN = ("measurements", "actions")
+#: What is done to the order of a list is done all along: who had the right answer to a part before did not do it.
+OF_THE_ORDER = frozenset(("reversed", "entries-exchanged", "entry-left-out"))
+
 
 class Misread(Struct, frozen=True):
     """Givens in which one thing is read wrongly, and what was done: a name, and what is said of it."""
@@ -145,6 +150,9 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
                 (*value[:place], -value[place], *value[place + 1 :]),
                 f"the {ordinal(place)} of the {name}",
             )
+        if name in _IN_TURN and place and value[place] != value[place - 1]:
+            again = (*value[:place], value[place - 1], *value[place + 1 :])
+            yield "as-above", again, f"{ordinal(place)} of the {name}"
         if isinstance(value[place], tuple | BaseModel):
             above = _as_above(value, name, place) if place else ()
             for kind, changed, what in (*_row(value[place], name, place), *above):

@@ -332,6 +332,6 @@ def _term(cause: Cause) -> Words:
         row(typeset(over.index), relation("="), name(str(item))) for over, item in zip(within, cause.term, strict=True)
     ]
     words: list[str | Math] = [" (that of " if own else " in the term of "]
-    for number, pair in enumerate(pairs):
-        words += [", ", pair] if number else [pair]
+    for pair in pairs:
+        words += [", ", pair] if len(words) > 1 else [pair]
     return (*words, ")") if own else tuple(words)
