@@ -299,7 +299,7 @@ with evaluate(False):
 
     NEXT_VALUE_FORGOTTEN = Misconception(
         "next-value-forgotten",
-        "The critic's target is the reward plus γ times the value of the next state.",
+        "The target is the reward plus γ times the value of the next state.",
         when=lambda given: any(state not in given.trajectory.terminal for state in given.trajectory.states[1:]),
     )
     TD_ERROR = Formula(
