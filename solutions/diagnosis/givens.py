@@ -72,8 +72,9 @@ def _model(model: BaseModel) -> Changed:
     for name, value in fields.items():
         if isinstance(value, bool):
             continue
+        ambiguous = isinstance(value, BaseModel) and not fields.keys().isdisjoint(type(value).model_fields)
         for kind, changed, what in _inside(value, name):
-            yield from _again(model, {name: changed}, kind, what)
+            yield from _again(model, {name: changed}, kind, _at(what, f"of the {name}") if ambiguous else what)
 
 
 def _unpaid_at_the_end(model: Model) -> tuple[Transition, ...]:
@@ -130,15 +131,16 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
             yield "rows-exchanged", {**value, one: value[two], two: value[one]}, what
     for key in keys:
         if isinstance(value[key], BaseModel | dict):
+            where = f"{'of' if isinstance(value[key], BaseModel) else 'at'} {_named(key)}"
             for kind, changed, what in _inside(value[key], name):
-                yield kind, {**value, key: changed}, what
+                yield kind, {**value, key: changed}, _at(what, where)
 
 
 def _of_list(value: tuple[Any, ...], name: str) -> Changed:
     if not 1 < len(value) <= _MOST:
         return
     name = _ENTRIES.get(name, name)
-    yield "reversed", value[::-1], name
+    yield "reversed", value[::-1], "states" if isinstance(value[0], Transition) else name
     for place in range(len(value)):
         yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{ordinal(place)} of the {name}"
         if place + 1 < len(value) and value[place] != value[place + 1]:
@@ -180,7 +182,8 @@ def _as_above(value: tuple[Any, ...], name: str, place: int) -> Changed:
 def _row(row: Any, name: str, place: int) -> Changed:
     """One row of a table: a number in it without its minus, two of its numbers exchanged."""
     if isinstance(row, BaseModel):
-        yield from _model(row)
+        where = f"of the {ordinal(place)} of the {name}"
+        yield from ((kind, changed, _at(what, where)) for kind, changed, what in _model(row))
         return
     entries: Sequence[Any] = row
     make = row._replace if hasattr(row, "_fields") else None
@@ -198,6 +201,11 @@ def _row(row: Any, name: str, place: int) -> Changed:
         if entries[one] != entries[two]:
             update = {one: entries[two], two: entries[one]}
             yield "givens-exchanged", changed(update), f"{ordinal(place)} row of {name}"
+
+
+def _at(what: str, where: str) -> str:
+    """What is in one row of several, with the row: in none is it the same."""
+    return f"{what}{',' if ', ' in what or ' at ' in what else ''} {where}" if what else ""
 
 
 def _named(key: Any) -> str:
