@@ -52,6 +52,8 @@ _EDITS = {
     "inverse": "the inverse is forgotten in {part}",
     "root": "the root is forgotten in {part}",
     "power": "the power is off in {part}",
+    "power-of-sum": "{instead} stands where {part} belongs",
+    "power-of-terms": "{instead} stands where {part} belongs",
     "power-as-product": "{part} is taken for a product instead of a power",
     "transposed": "the transpose is forgotten in {part}",
     "case": "the wrong case is taken in {part}",

@@ -30,6 +30,8 @@ IDEAS = {
     "max-for-sum": 1.5,
     "max-for-mean": 1.5,
     "power-as-product": 2.0,
+    "power-of-sum": 4.0,
+    "power-of-terms": 2.5,
     "confused": 1.8,
     "bracket-left-out": 1.7,
     "summand-left-out": 14.0,
