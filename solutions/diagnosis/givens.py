@@ -122,6 +122,8 @@ def _of_number(value: Any, name: str) -> Changed:
 
 def _of_table(value: dict[Any, Any], name: str) -> Changed:
     keys = list(value)[:_MOST]
+    if (turned := _turned_table(value)) != value:
+        yield "rows-and-columns", turned, name
     for key in keys:
         if _number(value[key]) and value[key] < 0:
             yield "minus-lost", {**value, key: -value[key]}, f"{name} {_named(key)}"
@@ -134,6 +136,13 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
             where = f"{'of' if isinstance(value[key], BaseModel) else 'at'} {_named(key)}"
             for kind, changed, what in _inside(value[key], name):
                 yield kind, {**value, key: changed}, _at(what, where)
+        elif isinstance(value[key], tuple) and all(map(_number, value[key])):
+            for one, two in combinations(range(len(value[key])), 2):
+                row = list(value[key])
+                row[one], row[two] = row[two], row[one]
+                if tuple(row) != value[key]:
+                    what = f"{name} of {_named(key)}, {ordinal(one)} and {ordinal(two)}"
+                    yield "rows-exchanged", {**value, key: tuple(row)}, what
 
 
 def _of_list(value: tuple[Any, ...], name: str) -> Changed:
@@ -168,6 +177,16 @@ def _turned(value: Any) -> Any:
     if all(len(row) == len(value) and all(map(_number, row)) for row in value):
         return tuple(zip(*value, strict=True))
     return tuple(map(_turned, value))
+
+
+def _turned_table(value: dict[Any, Any]) -> dict[Any, Any]:
+    """A table with as many numbers in every row as it has rows, with its rows as columns; anything else as it is."""
+    rows = list(value.values())
+    if all(isinstance(row, tuple) and len(row) == len(rows) and all(map(_number, row)) for row in rows):
+        return dict(zip(value, zip(*rows, strict=True), strict=True))
+    if all(isinstance(row, dict) and list(row) == list(value) and all(map(_number, row.values())) for row in rows):
+        return {one: {two: value[two][one] for two in value} for one in value}
+    return value
 
 
 def _as_above(value: tuple[Any, ...], name: str, place: int) -> Changed:

@@ -216,6 +216,23 @@ def test_what_was_misread_is_said_so_that_it_is_one_thing(family: Family) -> Non
                 assert found.setdefault((each.kind, each.what), each.given) == each.given
 
 
+class Tables(Exactly):
+    features: dict[str, tuple[Exact, ...]] = {}
+    ways: dict[str, dict[str, Exact]] = {}
+
+
+def test_a_table_is_read_by_columns_and_two_numbers_of_a_row_are_exchanged() -> None:
+    given = Tables(features={"a": (1, 2), "b": (3, 3)}, ways={"u": {"u": 4, "v": 5}, "v": {"u": 6, "v": 7}})
+    found = {each.what: each.given for each in misread(given) if each.kind == "rows-and-columns"}
+    assert found["features"].features == {"a": (1, 3), "b": (2, 3)}
+    assert found["ways"].ways == {"u": {"u": 4, "v": 6}, "v": {"u": 5, "v": 7}}
+    (one,) = [each for each in misread(given) if each.what == "features of a, first and second"]
+    assert one.given.features == {"a": (2, 1), "b": (3, 3)}
+    # What is no square has no columns in the place of rows.
+    wide = Tables(features={"a": (1, 2, 3), "b": (4, 5, 6)}, ways={"u": {"v": 4}, "v": {"u": 6}})
+    assert not [each for each in misread(wide) if each.kind == "rows-and-columns"]
+
+
 class List(BaseModel):
     numbers: tuple[int, ...]
 
