@@ -1,6 +1,7 @@
 """Slips of arithmetic: the values that are written for a value by mistake."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import Any
 
 from flint import fmpq, fmpq_poly
@@ -116,8 +117,19 @@ def _in_matrix(value: Any) -> Iterator[Slip]:
                     changed = [list(each) for each in rows]
                     changed[line][column] = other
                     yield kind, matrix(changed)
+    for line, column in beside_the_diagonal(rows):
+        changed = [list(each) for each in rows]
+        changed[line][column], changed[column][line] = -rows[line][column], -rows[column][line]
+        yield "sign", matrix(changed)
     if len(rows) * len(rows[0]) > 1:
         yield "sign", -value
+
+
+def beside_the_diagonal(rows: Sequence[Sequence[Any]]) -> Iterator[tuple[int, int]]:
+    """The places above the diagonal of a square that hold the same as those across, and not 0."""
+    for line, column in combinations(range(len(rows)), 2) if len(rows) == len(rows[0]) else ():
+        if rows[line][column] == rows[column][line] and not is_zero(rows[line][column]):
+            yield line, column
 
 
 def _in_vector(value: Vector) -> Iterator[Slip]:

@@ -144,6 +144,7 @@ _WHOLE = {
     "one-minus": "you gave 1 minus the answer",
     "inverse": "the answer is upside down",
     "percent": "the answer is given in percent",
+    "standard-deviation": "you gave the standard deviation, the root of the variance",
     "tenfold": "the decimal point has slipped",
     "digits": "two digits are exchanged",
     "": "there is a slip of arithmetic in the last step",

@@ -150,6 +150,7 @@ ANSWERS = {
     "doubled": 0.8,
     "halved": 0.8,
     "percent": 2.0,
+    "standard-deviation": 6.0,
     "lost-term": 1.5,
     "term-sign": 2.0,
     "term-tenfold": 0.5,

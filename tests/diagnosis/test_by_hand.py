@@ -15,18 +15,27 @@ VISITS = {
     "values": {"start": -3, "edge": 2}, "counts": {"start": 4, "edge": 3},
     "visits": [["edge", 5], ["start", 9], ["start", 12], ["edge", -3]],
 }  # fmt: skip
+STEP = {
+    "mean": [4], "covariance": [[6]], "A": [[1]], "B": [[1]], "C": [[1]], "process": [[2]], "sensor": [[8]],
+    "steps": [{"u": [2], "z": [8]}],
+}  # fmt: skip
+CART = {"A": [[1, 1], [0, 1]], "B": [[0], [1]], "Q": [[1, 0], [0, 1]], "R": 1, "start": [4, 0], "horizon": 2}
 SAID = [
     # δ = γ(r + V(s′) − V(s)): ½(8 − 4 + 4) = 4, V(hot) = −4 + 4/5; ½(−6 − 2 + 16/5); ½(4 + 0 + 2), V(smoking) being −2.
-    ("td-zero", RUN, "4, -12/5, 3", "a bracket is set in the wrong place in rₜ₊₁ + γV(sₜ₊₁) − V(sₜ) every time"),
+    ("td-zero", RUN, "a", "4, -12/5, 3", "a bracket is set in the wrong place in rₜ₊₁ + γV(sₜ₊₁) − V(sₜ) every time"),
+    # Mean 4 + 2, variance 6 + 2 = 8, whose root is 2.83.
+    ("kalman-filter", STEP, "a", "6, 2.83", "you gave the standard deviation, the root of the variance"),
+    # P₁ = −(2 1; 1 5/2), as in examples/double-integrator.toml.
+    ("lqr-backward", CART, "b", "[-2 1; 1 -5/2]", "the sign is wrong at row 1, column 2 and row 2, column 1"),
     # The first visit of each state alone: edge 2 + (5 − 2)/4, start −3 + (9 + 3)/5; both are visited twice.
-    ("sample-average", VISITS, "start: -3/5, edge: 11/4", "the last round of updates is left out"),
+    ("sample-average", VISITS, "a", "start: -3/5, edge: 11/4", "the last round of updates is left out"),
 ]
 
 
-@pytest.mark.parametrize(("family", "given", "typed", "said"), SAID)
-def test_what_is_said(family: str, given: dict[str, Any], typed: str, said: str) -> None:
+@pytest.mark.parametrize(("family", "given", "part", "typed", "said"), SAID)
+def test_what_is_said(family: str, given: dict[str, Any], part: str, typed: str, said: str) -> None:
     exercise = rldrill.read({"family": family, "given": given})
-    assert exercise.diagnose(typed, "a").sentence == f"It looks as if {said}."
+    assert exercise.diagnose(typed, part).sentence == f"It looks as if {said}."
 
 
 def test_updates_that_are_all_worked_out_with_the_first_values_are_added_up() -> None:
