@@ -141,11 +141,15 @@ def _alike(one: Cause, two: Cause) -> bool:
 
 
 def _at_the_same_place(one: Cause, two: Cause) -> bool:
-    """Whether both may be the same application; all those of one quantity, where it was done every time."""
+    """Whether both may be the same application; all those of one quantity, where it was done every time.
+
+    The equations of one state are one place, whatever they are solved for: the first or the second feature.
+    """
     here, there = one.application, two.application
     if here is there or here is None or there is None:
         return True
-    return (one.always or two.always) and here.right == there.right and here.names == there.names
+    any_of_them = one.always or two.always or (here.equation and there.equation)
+    return any_of_them and here.right == there.right and here.names == there.names
 
 
 def _is_stated(mistake: Cause, edit: Cause) -> bool:

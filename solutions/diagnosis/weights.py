@@ -112,7 +112,7 @@ PROCEDURE = {
     "one-too-few": 4.0,
     "givens-exchanged": 2.0,
     "rows-exchanged": 1.0,
-    "rows-and-columns": 3.0,
+    "rows-and-columns": 9.0,
     "as-above": 1.0,
     "end-unpaid": 6.0,
     "minus-lost": 3.0,

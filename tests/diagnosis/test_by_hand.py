@@ -20,16 +20,31 @@ STEP = {
     "steps": [{"u": [2], "z": [8]}],
 }  # fmt: skip
 CART = {"A": [[1, 1], [0, 1]], "B": [[0], [1]], "Q": [[1, 0], [0, 1]], "R": 1, "start": [4, 0], "horizon": 2}
+WALK = {
+    "motion": {
+        "left": {"A": {"end": 1}, "B": {"A": "1/4", "end": "3/4"}},
+        "right": {"A": {"B": "3/4", "end": "1/4"}, "B": {"A": 1}},
+    },
+    "policy": {"A": {"left": "1/3", "right": "2/3"}, "B": {"left": "2/3", "right": "1/3"}},
+    "features": {"A": [9, 5], "B": [5, 1]}, "start": {"A": "1/3", "B": "2/3"}, "terminal": ["end"], "gamma": "2/3",
+}  # fmt: skip
 SAID = [
     # δ = γ(r + V(s′) − V(s)): ½(8 − 4 + 4) = 4, V(hot) = −4 + 4/5; ½(−6 − 2 + 16/5); ½(4 + 0 + 2), V(smoking) being −2.
     ("td-zero", RUN, "a", "4, -12/5, 3", "a bracket is set in the wrong place in rₜ₊₁ + γV(sₜ₊₁) − V(sₜ) every time"),
     # Mean 4 + 2, variance 6 + 2 = 8, whose root is 2.83.
     ("kalman-filter", STEP, "a", "6, 2.83", "you gave the standard deviation, the root of the variance"),
+    # μ(A) = 9 + μ(B)/3 and μ(B) = 5 + μ(A)/3 give 12 and 9. Without γ it is μ(B) = 5 + μ(A)/2, as with 1/3·1/4 + 2/3
+    # for 2/3·1/4 + 1/3 before γμ(A): then μ(A) is 64/5. The second feature's equation of B is the same.
+    (
+        "feature-expectations-policy", WALK, "a", "12.8, 11.4",
+        "γ is missing in the equation of μ₁(B), or 1 − π(a|s) stands where π(a|s) belongs in the equation of μ₁(B), "
+        "or there is a slip in solving the equations",
+    ),
     # P₁ = −(2 1; 1 5/2), as in examples/double-integrator.toml.
     ("lqr-backward", CART, "b", "[-2 1; 1 -5/2]", "the sign is wrong at row 1, column 2 and row 2, column 1"),
     # The first visit of each state alone: edge 2 + (5 − 2)/4, start −3 + (9 + 3)/5; both are visited twice.
     ("sample-average", VISITS, "a", "start: -3/5, edge: 11/4", "the last round of updates is left out"),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("family", "given", "part", "typed", "said"), SAID)
