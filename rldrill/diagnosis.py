@@ -309,7 +309,7 @@ class Diagnosing:
             gone_on.append(dict(earlier))
         for carried in gone_on:
             with self._one:
-                found = explained(self.outcomes(label, carried), typed, clock, settled)
+                found = explained(self.outcomes(label, carried), typed, clock, settled, None if carried else earlier)
             if found.causes:
                 applications = self.search(carried).applications
                 return self.solution.problem.written(partial(_told, found, applications))

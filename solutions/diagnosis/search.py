@@ -17,6 +17,7 @@ from rldrill.solutions.diagnosis.alternatives import (
     can_be_made,
     hashable,
     is_sensible,
+    likely_everywhere,
     likely_share,
     numbers,
     of_numbers,
@@ -160,7 +161,7 @@ class Search:
             for chosen in [group] if len(group) == 1 else [group, *([one] for one in group)]:
                 right, edit = chosen[0]
                 places = [application for each, _ in chosen for application in uses[each]]
-                weight = weights.IDEAS[edit.kind]
+                weight = weights.IDEAS[edit.kind] * likely_everywhere(edit, places)
                 cause = Cause(
                     edit.kind,
                     weight,

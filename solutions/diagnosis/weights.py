@@ -59,7 +59,7 @@ ALIKE = (
     {"squared", "squared-value", "power"},
     {"numerator", "one-off"},
     {"denominator", "one-off"},
-    {"inverse", "upside-down"},
+    {"inverse", "upside-down", "divided"},
     {"kept", "summand-left-out", "factor-left-out", "term-left-out"},
     {"halved", "doubled"},
     {"exchanged-cells", "rows-exchanged"},

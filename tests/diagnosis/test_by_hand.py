@@ -28,7 +28,12 @@ WALK = {
     "policy": {"A": {"left": "1/3", "right": "2/3"}, "B": {"left": "2/3", "right": "1/3"}},
     "features": {"A": [9, 5], "B": [5, 1]}, "start": {"A": "1/3", "B": "2/3"}, "terminal": ["end"], "gamma": "2/3",
 }  # fmt: skip
+ONE = {"trajectory": {"states": ["hot", "cold"], "rewards": [7]}, "values": {"hot": 8, "cold": 10}, "alpha": "3/4"}
 SAID = [
+    # 8 + 4/3·(7 + 1/2·10 − 8) = 40/3, whether one divides by α or turns it over.
+    ("td-zero", {**ONE, "gamma": "1/2"}, "a", "40/3", "α = 3/4 is upside down in the update"),
+    # 8 + 3/4·(7 − 8) = 29/4; nobody takes 1 − 1 for γ = 1.
+    ("td-zero", {**ONE, "gamma": 1}, "a", "29/4", "γV(sₜ₊₁) is missing in the update"),
     # δ = γ(r + V(s′) − V(s)): ½(8 − 4 + 4) = 4, V(hot) = −4 + 4/5; ½(−6 − 2 + 16/5); ½(4 + 0 + 2), V(smoking) being −2.
     ("td-zero", RUN, "a", "4, -12/5, 3", "a bracket is set in the wrong place in rₜ₊₁ + γV(sₜ₊₁) − V(sₜ) every time"),
     # Mean 4 + 2, variance 6 + 2 = 8, whose root is 2.83.

@@ -77,3 +77,15 @@ def test_the_order_of_measurements_is_denied_by_the_belief_after_the_first() -> 
     said = exercise.diagnose("9/10, 1/10", "b", {"a": "3/4, 1/4"}).sentence
     assert "the second of the measurements is taken over from the one before" in said
     assert "order" not in said
+
+
+def test_what_gives_the_wrong_answer_before_as_well_is_told_again() -> None:
+    # floor ← −4 + 1/4·(9 + 3/4·x + 4), then rim from there, then floor ← 3/4·floor + 2, which is 2: floor was 0, x = 4.
+    # With 9 + 3/4·x − 4 in the first bracket x = 44/3, and rim ← 44/3 + 1/4·(6 + 0 − 44/3) = 25/2.
+    run = {"states": ["floor", "rim", "floor", "end"], "rewards": [9, 6, 8], "terminal": ["end"]}
+    given = {"known": 2, "trajectory": run, "values": {"rim": "x", "floor": -4}, "alpha": "1/4", "gamma": "3/4"}
+    exercise = rldrill.read({"family": "td-zero", "given": given})
+    assert not exercise.diagnose("25/2", "b").explains
+    assert exercise.diagnose("25/2", "b", {"a": "44/3"}).sentence == (
+        "It looks as if V(sₜ) has the wrong sign in the first update (t = 0)."
+    )
