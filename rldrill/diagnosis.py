@@ -18,6 +18,7 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.sentences import in_letters
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of, read_answer
 from rldrill.solutions.answers.kinds import Cell, answer_kind
+from rldrill.solutions.answers.rule import tolerance, within
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
@@ -223,6 +224,13 @@ class Diagnosing:
         values = self.solution.work.values
         return len(values) + sum(len(value) ** 2 for value in values if isinstance(value, dict)) > _LARGEST
 
+    def _nearly_rounded(self, label: str, text: str) -> bool:
+        """Whether the wrong numbers are rounded ones whose last digit is one off, or that have too few digits."""
+        typed = self._typed(label, text)
+        return self._rounded(label, text) or all(
+            _is_one_off(typed.cells[name], typed.key[name]) for name in typed.wrong
+        )
+
     def _rounded(self, label: str, text: str) -> bool:
         """Whether the wrong numbers are right ones with fewer digits than are asked for."""
         typed = self._typed(label, text)
@@ -292,6 +300,8 @@ class Diagnosing:
             return Diagnosis("right", verdict.says, confidence=1.0)
         if verdict.told:
             return _listed(self.solution, verdict)
+        if verdict.outcome is Outcome.CLOSE and self._nearly_rounded(label, text):
+            return Diagnosis("unexplained", verdict.says)
         self.finish()
         typed = self._typed(label, text)
         clock = Clock(seconds)
@@ -300,7 +310,7 @@ class Diagnosing:
             gone_on.append(dict(earlier))
         for carried in gone_on:
             with self._one:
-                found = explained(self.outcomes(label, carried), typed, clock, settled)
+                found = explained(self.outcomes(label, carried), typed, clock, settled, None if carried else earlier)
             if found.causes:
                 applications = self.search(carried).applications
                 return self.solution.problem.written(partial(_told, found, applications))
@@ -317,6 +327,14 @@ def _is_shorter(cell: Cell, key: Any) -> bool:
         return False
     places = next((places for places in range(_PLACES) if 10**places % int(cell.value.q) == 0), None)
     return places is not None and abs(approximate(cell.value) - approximate(key)) < 10.0**-places
+
+
+def _is_one_off(cell: Cell, key: Any) -> bool:
+    """Whether a decimal is the key, rounded to three digits, but for 1 in the last one."""
+    if not isinstance(cell, Reading) or not cell.decimal or not is_rational(cell.value):
+        return False
+    unit = 2 * tolerance(key)
+    return (cell.value / unit).q == 1 and within(cell.value, key, 3 * unit / 2)
 
 
 def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:

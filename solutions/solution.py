@@ -115,11 +115,12 @@ class Solution(Struct, frozen=True, dict=True):
 
     def tells_apart(self, answers: Mapping[str, Any]) -> bool:
         """Whether a marker can tell these answers from the right ones, in one part at least."""
-        return any(
-            _differ(self.cells[label], kind.cells(answers[label]))
-            for label, kind in self.kinds.items()
-            if label in answers
-        )
+        return any(self.differ(label, self.answers[label], answers[label]) for label in self.kinds if label in answers)
+
+    def differ(self, label: str, one: Any, other: Any) -> bool:
+        """Whether a marker can tell two answers to a part from each other."""
+        kind = self.kinds[label]
+        return _differ(self.cells[label] if one is self.answers[label] else kind.cells(one), kind.cells(other))
 
     @property
     def lines(self) -> tuple[Line, ...]:

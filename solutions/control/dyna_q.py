@@ -146,6 +146,18 @@ def planning_skipped(given: Given, work: Work) -> None:
     work.answer({pair: known["Q"][pair] for pair in given.replayed})
 
 
+@slip(
+    "real-reward-in-planning",
+    "A planned update takes the reward that the model holds for its own pair, not the one just earned.",
+    when=lambda given: any(given.learned[pair].reward != given.tried[-1].reward for pair in given.planned),
+)
+def real_reward_in_planning(given: Given, work: Work) -> None:
+    """The reward of the last real transition in every planned update."""
+    known = _act(given, work, given.learned)
+    earned = {pair: entry._replace(reward=given.tried[-1].reward) for pair, entry in given.learned.items()}
+    _plan(given, work, earned, known)
+
+
 MISCONCEPTIONS = (
     NOT_DISCOUNTED,
     MEAN_FOR_MAX,
@@ -156,6 +168,7 @@ MISCONCEPTIONS = (
     from_before_the_run,
     all_at_once,
     planning_skipped,
+    real_reward_in_planning.where_it_shows(),
 )
 
 

@@ -37,6 +37,8 @@ LIKELY = 1.5
 SURER = 1.0
 #: An edit of this weight says at one place better what was done than a mistake that is stated of the whole formula.
 PLAIN = 6.0
+#: Edits that take something for 1 minus itself.
+_OF_SHARES = ("complement", "complement-of-value")
 #: Stands for an inverse that somebody works out wrongly.
 _INVERSE = letter("inverse_", "X", matrix=True)
 
@@ -328,15 +330,27 @@ def is_sensible(edit: Edit) -> bool:
 
 def likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -> float:
     """How likely an edit is for these values: 1 − x is taken for a share of 1."""
-    if edit.kind != "complement-of-value" or len(term) != len(edit.within):
+    if edit.kind not in _OF_SHARES or len(term) != len(edit.within):
         return 1.0
     here = {over.index.name: item for over, item in zip(edit.within, term, strict=True)}
     share = value_or_none(edit.part, {**known, **here})
+    if share is None:  # an unknown of equations
+        return 1.0
     if letters := parameters(share):
         is_share = share in [each for letter in letters for each in (generator(letter), 1 - generator(letter))]
     else:
         is_share = 0 < approximate(share) < 1
     return 1.0 if is_share else weights.NO_SHARE
+
+
+def likely_everywhere(edit: Edit, applications: Sequence[Application]) -> float:
+    """How likely an edit is for all values that it is made with."""
+    if edit.kind not in _OF_SHARES:
+        return 1.0
+    return min(
+        (likely_there(edit, term, each.known) for each in applications for term, _ in terms(edit.within, each.known)),
+        default=1.0,
+    )
 
 
 def plain(value: Any) -> bool:

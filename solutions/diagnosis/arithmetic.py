@@ -1,6 +1,7 @@
 """Slips of arithmetic: the values that are written for a value by mistake."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import Any
 
 from flint import fmpq, fmpq_poly
@@ -11,6 +12,9 @@ from rldrill.solutions.rational import RationalFunction, quotient
 from rldrill.solutions.vector import Vector
 
 Slip = tuple[str, Any]
+
+#: In a number of more digits than this none are exchanged.
+MOST_DIGITS = 7
 
 
 def slips(value: Any) -> Iterator[Slip]:
@@ -77,7 +81,7 @@ def _of_rational(value: fmpq) -> Iterator[Slip]:
 
 def _digits_swapped(number: int) -> Iterator[int]:
     digits = str(number)
-    if len(digits) > 7:
+    if len(digits) > MOST_DIGITS:
         return
     for place in range(len(digits) - 1):
         if digits[place] != digits[place + 1] and (place or digits[1] != "0"):
@@ -113,8 +117,19 @@ def _in_matrix(value: Any) -> Iterator[Slip]:
                     changed = [list(each) for each in rows]
                     changed[line][column] = other
                     yield kind, matrix(changed)
+    for line, column in beside_the_diagonal(rows):
+        changed = [list(each) for each in rows]
+        changed[line][column], changed[column][line] = -rows[line][column], -rows[column][line]
+        yield "sign", matrix(changed)
     if len(rows) * len(rows[0]) > 1:
         yield "sign", -value
+
+
+def beside_the_diagonal(rows: Sequence[Sequence[Any]]) -> Iterator[tuple[int, int]]:
+    """The places above the diagonal of a square that hold the same as those across, and not 0."""
+    for line, column in combinations(range(len(rows)), 2) if len(rows) == len(rows[0]) else ():
+        if rows[line][column] == rows[column][line] and not is_zero(rows[line][column]):
+            yield line, column
 
 
 def _in_vector(value: Vector) -> Iterator[Slip]:

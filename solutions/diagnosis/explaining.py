@@ -17,6 +17,8 @@ from rldrill.solutions.diagnosis.weights import ALIKE, SLIPS
 #: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number
 #: from nowhere in twenty is accused of something.
 ENOUGH, TOLD = 0.57, 0.4
+#: So sure it is that somebody did what gives the wrong answers to the parts before as well.
+MADE_BEFORE = 0.95
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
@@ -41,17 +43,30 @@ class Explained(Struct, frozen=True):
         return sum(self.shares)
 
 
-def explained(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[str, Any] | None = None) -> Explained:
-    """What a wrong answer comes from; nothing, where that could be anything, or answers that are settled deny it."""
+def explained(
+    outcomes: Outcomes,
+    typed: Typed,
+    clock: Clock,
+    settled: Mapping[str, Any] | None = None,
+    wrong: Mapping[str, Any] | None = None,
+) -> Explained:
+    """What a wrong answer comes from; nothing, where that could be anything, or answers that are settled deny it.
+
+    A cause that gives the ``wrong`` answers to the parts before, too, is hardly chance.
+    """
     found, finished = giving(outcomes, typed, clock, settled or {})
     if not found:
         return Explained()
+    again = [each for each in found if outcomes.gives_before(each, wrong)] if wrong else []
+    found = again or found
     causes = [each.cause for each in found]
     shares = Weighing(outcomes, typed, found).shares()
+    if again:
+        shares = [MADE_BEFORE * share / sum(shares) for share in shares]
     groups = [sorted(group, key=lambda one: (_standing(causes[one]), -shares[one])) for group in distinct(causes)]
     told = likeliest(shares, groups)
     enough = sum(shares) >= ENOUGH and sum(share for share, _ in told) >= TOLD
-    if not enough or (not finished and causes[told[0][1]].weight < SURE_ENOUGH):
+    if not enough or (not finished and not again and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
     told = _with_its_like(told, groups, causes, shares)
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
@@ -131,6 +146,8 @@ def _alike(one: Cause, two: Cause) -> bool:
     for zero, other in ((one, two), (two, one)):
         if zero.kind in ("elsewhere", "another-line") and zero.other == 0 and other.kind.endswith("left-out"):
             return True
+        if zero.probe is not None and zero.other == 1 and other.kind.endswith("factor-left-out"):
+            return other.edit is not None and zero.probe.part == other.edit.part
     if one.mistake and two.mistake:
         return one.mistake.says == two.mistake.says
     if one.mistake or two.mistake:
@@ -141,11 +158,15 @@ def _alike(one: Cause, two: Cause) -> bool:
 
 
 def _at_the_same_place(one: Cause, two: Cause) -> bool:
-    """Whether both may be the same application; all those of one quantity, where it was done every time."""
+    """Whether both may be the same application; all those of one quantity, where it was done every time.
+
+    The equations of one state are one place, whatever they are solved for: the first or the second feature.
+    """
     here, there = one.application, two.application
     if here is there or here is None or there is None:
         return True
-    return (one.always or two.always) and here.right == there.right and here.names == there.names
+    any_of_them = one.always or two.always or (here.equation and there.equation)
+    return any_of_them and here.right == there.right and here.names == there.names
 
 
 def _is_stated(mistake: Cause, edit: Cause) -> bool:

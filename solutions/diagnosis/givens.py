@@ -38,6 +38,11 @@ _ENTRIES = {
     "w": "weights",
 }
 
+#: Lists of names that are gone through one after the other, each with the table of its own.
+_IN_TURN = ("measurements", "actions")
+#: What is done to the order of a list is done all along: who had the right answer to a part before did not do it.
+OF_THE_ORDER = frozenset(("reversed", "entries-exchanged", "entry-left-out"))
+
 
 class Misread(Struct, frozen=True):
     """Givens in which one thing is read wrongly, and what was done: a name, and what is said of it."""
@@ -67,8 +72,9 @@ def _model(model: BaseModel) -> Changed:
     for name, value in fields.items():
         if isinstance(value, bool):
             continue
+        ambiguous = isinstance(value, BaseModel) and not fields.keys().isdisjoint(type(value).model_fields)
         for kind, changed, what in _inside(value, name):
-            yield from _again(model, {name: changed}, kind, what)
+            yield from _again(model, {name: changed}, kind, _at(what, f"of the {name}") if ambiguous else what)
 
 
 def _unpaid_at_the_end(model: Model) -> tuple[Transition, ...]:
@@ -116,6 +122,8 @@ def _of_number(value: Any, name: str) -> Changed:
 
 def _of_table(value: dict[Any, Any], name: str) -> Changed:
     keys = list(value)[:_MOST]
+    if (turned := _turned_table(value)) != value:
+        yield "rows-and-columns", turned, name
     for key in keys:
         if _number(value[key]) and value[key] < 0:
             yield "minus-lost", {**value, key: -value[key]}, f"{name} {_named(key)}"
@@ -125,15 +133,23 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
             yield "rows-exchanged", {**value, one: value[two], two: value[one]}, what
     for key in keys:
         if isinstance(value[key], BaseModel | dict):
+            where = f"{'of' if isinstance(value[key], BaseModel) else 'at'} {_named(key)}"
             for kind, changed, what in _inside(value[key], name):
-                yield kind, {**value, key: changed}, what
+                yield kind, {**value, key: changed}, _at(what, where)
+        elif isinstance(value[key], tuple) and all(map(_number, value[key])):
+            for one, two in combinations(range(len(value[key])), 2):
+                row = list(value[key])
+                row[one], row[two] = row[two], row[one]
+                if tuple(row) != value[key]:
+                    what = f"{name} of {_named(key)}, {ordinal(one)} and {ordinal(two)}"
+                    yield "rows-exchanged", {**value, key: tuple(row)}, what
 
 
 def _of_list(value: tuple[Any, ...], name: str) -> Changed:
     if not 1 < len(value) <= _MOST:
         return
     name = _ENTRIES.get(name, name)
-    yield "reversed", value[::-1], name
+    yield "reversed", value[::-1], "states" if isinstance(value[0], Transition) else name
     for place in range(len(value)):
         yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{ordinal(place)} of the {name}"
         if place + 1 < len(value) and value[place] != value[place + 1]:
@@ -145,6 +161,9 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
                 (*value[:place], -value[place], *value[place + 1 :]),
                 f"the {ordinal(place)} of the {name}",
             )
+        if name in _IN_TURN and place and value[place] != value[place - 1]:
+            again = (*value[:place], value[place - 1], *value[place + 1 :])
+            yield "as-above", again, f"{ordinal(place)} of the {name}"
         if isinstance(value[place], tuple | BaseModel):
             above = _as_above(value, name, place) if place else ()
             for kind, changed, what in (*_row(value[place], name, place), *above):
@@ -160,6 +179,16 @@ def _turned(value: Any) -> Any:
     return tuple(map(_turned, value))
 
 
+def _turned_table(value: dict[Any, Any]) -> dict[Any, Any]:
+    """A table with as many numbers in every row as it has rows, with its rows as columns; anything else as it is."""
+    rows = list(value.values())
+    if all(isinstance(row, tuple) and len(row) == len(rows) and all(map(_number, row)) for row in rows):
+        return dict(zip(value, zip(*rows, strict=True), strict=True))
+    if all(isinstance(row, dict) and list(row) == list(value) and all(map(_number, row.values())) for row in rows):
+        return {one: {two: value[two][one] for two in value} for one in value}
+    return value
+
+
 def _as_above(value: tuple[Any, ...], name: str, place: int) -> Changed:
     """One entry of a row taken over from the row above it."""
     row, above = value[place], value[place - 1]
@@ -172,7 +201,8 @@ def _as_above(value: tuple[Any, ...], name: str, place: int) -> Changed:
 def _row(row: Any, name: str, place: int) -> Changed:
     """One row of a table: a number in it without its minus, two of its numbers exchanged."""
     if isinstance(row, BaseModel):
-        yield from _model(row)
+        where = f"of the {ordinal(place)} of the {name}"
+        yield from ((kind, changed, _at(what, where)) for kind, changed, what in _model(row))
         return
     entries: Sequence[Any] = row
     make = row._replace if hasattr(row, "_fields") else None
@@ -190,6 +220,11 @@ def _row(row: Any, name: str, place: int) -> Changed:
         if entries[one] != entries[two]:
             update = {one: entries[two], two: entries[one]}
             yield "givens-exchanged", changed(update), f"{ordinal(place)} row of {name}"
+
+
+def _at(what: str, where: str) -> str:
+    """What is in one row of several, with the row: in none is it the same."""
+    return f"{what}{',' if ', ' in what or ' at ' in what else ''} {where}" if what else ""
 
 
 def _named(key: Any) -> str:

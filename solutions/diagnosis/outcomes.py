@@ -305,6 +305,22 @@ class Outcomes:
         cells = self.cells_of(again(settled))
         return cells is not None and all(equal(cells[name], right) for name, right in (outcome.cells or {}).items())
 
+    def gives_before(self, outcome: Outcome, wrong: Mapping[str, Any]) -> bool:
+        """Whether a cause gives these wrong answers to parts before, and with them what it is said to give here."""
+        again = outcome.again if outcome.change is None else partial(self.search.replay, outcome.change, None)
+        answers = None if again is None else again({})
+        cells = self.cells_of(answers)
+        if (
+            answers is None
+            or cells is None
+            or any(not equal(cells[name], value) for name, value in (outcome.cells or {}).items())
+        ):
+            return False
+        try:
+            return not any(self.search.solution.differ(label, answers[label], value) for label, value in wrong.items())
+        except (*UNDONE, KeyError):
+            return False
+
     def giving(self, typed: Typed) -> list[Outcome]:
         """The causes that give what was typed."""
         found = [outcome for outcome in self.single.near(typed) if self._gives(outcome, typed)]

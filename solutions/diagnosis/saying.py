@@ -1,15 +1,18 @@
 """What is said of a cause: one sentence, as a good lecturer puts it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
+from flint import fmpq
 from sympy import Expr, Mul, preorder_traversal
 
-from rldrill.problems.mathematics import Math, name, relation, row
+from rldrill.problems.mathematics import Math, name, number, relation, row
 from rldrill.solutions.diagnosis.alternatives import numbers, terms
+from rldrill.solutions.diagnosis.arithmetic import MOST_DIGITS
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.givens import ordinal
 from rldrill.solutions.diagnosis.replay import Application
+from rldrill.solutions.exact import decimal, is_rational
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, flat
 from rldrill.solutions.formula.letters import GLYPHS
 from rldrill.solutions.formula.nodes.leaves import put_in_name
@@ -49,6 +52,8 @@ _EDITS = {
     "inverse": "the inverse is forgotten in {part}",
     "root": "the root is forgotten in {part}",
     "power": "the power is off in {part}",
+    "power-of-sum": "{instead} stands where {part} belongs",
+    "power-of-terms": "{instead} stands where {part} belongs",
     "power-as-product": "{part} is taken for a product instead of a power",
     "transposed": "the transpose is forgotten in {part}",
     "case": "the wrong case is taken in {part}",
@@ -139,6 +144,7 @@ _WHOLE = {
     "one-minus": "you gave 1 minus the answer",
     "inverse": "the answer is upside down",
     "percent": "the answer is given in percent",
+    "standard-deviation": "you gave the standard deviation, the root of the variance",
     "tenfold": "the decimal point has slipped",
     "digits": "two digits are exchanged",
     "": "there is a slip of arithmetic in the last step",
@@ -164,14 +170,16 @@ def _what(cause: Cause) -> Words:
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
         part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
-        was = _number(cause.was) if "{was}" in template else None
-        became = _number(cause.other) if "{became}" in template else None
+        write = _written(cause.kind, cause.was, cause.other)
+        was = write(cause.was) if "{was}" in template else None
+        became = write(cause.other) if "{became}" in template else None
         line = typeset(_line(cause)) if "{line}" in template else None
         return _filled(template, line=line, part=part, was=was, became=became)
     if cause.application is not None and cause.kind != "another-quantity":
         template = _VALUES.get(cause.kind, _VALUES[""])
         was, became = _changed(cause.was, cause.became)
-        return _filled(template, was=_number(was), became=_number(became))
+        write = _written(cause.kind, was, became)
+        return _filled(template, was=write(was), became=write(became))
     if cause.application is not None:
         return _filled(_WHOLE[cause.kind + cause.what], left=typeset(cause.application.step.left))
     template = _WHOLE.get(cause.kind, _WHOLE[""])
@@ -227,6 +235,18 @@ def _changed(was: Any, became: Any) -> tuple[Any, Any]:
         return was, became
     changed = [pair for pair in zip(one, two, strict=True) if str(pair[0]) != str(pair[1])]
     return changed[0] if len(changed) == 1 else (was, became)
+
+
+def _written(kind: str, was: Any, became: Any) -> Callable[[Any], Any]:
+    """How two numbers are written: as decimals, where it is their digits that are exchanged."""
+    if kind != "digits" or not is_rational(was) or not is_rational(became):
+        return _number
+    exchanged = sorted(_decimal(was)) == sorted(_decimal(became))
+    return (lambda value: number(_decimal(value))) if exchanged else _number
+
+
+def _decimal(value: fmpq) -> str:
+    return str(decimal(value, MOST_DIGITS))
 
 
 def _number(value: Any) -> Any:
@@ -315,6 +335,6 @@ def _term(cause: Cause) -> Words:
         row(typeset(over.index), relation("="), name(str(item))) for over, item in zip(within, cause.term, strict=True)
     ]
     words: list[str | Math] = [" (that of " if own else " in the term of "]
-    for number, pair in enumerate(pairs):
-        words += [", ", pair] if number else [pair]
+    for pair in pairs:
+        words += [", ", pair] if len(words) > 1 else [pair]
     return (*words, ")") if own else tuple(words)

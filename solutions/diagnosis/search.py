@@ -17,6 +17,7 @@ from rldrill.solutions.diagnosis.alternatives import (
     can_be_made,
     hashable,
     is_sensible,
+    likely_everywhere,
     likely_share,
     numbers,
     of_numbers,
@@ -28,7 +29,7 @@ from rldrill.solutions.diagnosis.alternatives import (
 )
 from rldrill.solutions.diagnosis.causes import Candidate, Cause
 from rldrill.solutions.diagnosis.clock import Clock
-from rldrill.solutions.diagnosis.givens import misread
+from rldrill.solutions.diagnosis.givens import OF_THE_ORDER, misread
 from rldrill.solutions.diagnosis.replay import (
     Application,
     Change,
@@ -39,6 +40,7 @@ from rldrill.solutions.diagnosis.replay import (
     replayed,
     with_givens,
 )
+from rldrill.solutions.diagnosis.typed import equal
 from rldrill.solutions.diagnosis.unknowns import missolved
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, edits, element, probes
 from rldrill.solutions.formula.formula import Formula, Misconception
@@ -159,7 +161,7 @@ class Search:
             for chosen in [group] if len(group) == 1 else [group, *([one] for one in group)]:
                 right, edit = chosen[0]
                 places = [application for each, _ in chosen for application in uses[each]]
-                weight = weights.IDEAS[edit.kind]
+                weight = weights.IDEAS[edit.kind] * likely_everywhere(edit, places)
                 cause = Cause(
                     edit.kind,
                     weight,
@@ -245,8 +247,10 @@ class Search:
 
     def _misread(self) -> Iterator[Candidate]:
         for other in misread(self.problem.given):
+            answers = self._with_givens(other.given, {})
             again = partial(self._with_givens, other.given)
-            answers = again({})
+            if other.kind in OF_THE_ORDER:
+                again = partial(_denied_by, answers or {})
             if answers is not None and list(answers) == list(self.work.answers):
                 yield Candidate(Cause(other.kind, weights.PROCEDURE[other.kind], what=other.what), answers, again)
 
@@ -370,6 +374,11 @@ class Search:
                 others = [(each, of_numbers(value, each)) for each in (*one_more, *checks)]
             self._responses[number] = [(each, self.replay(Change(values={number: other}))) for each, other in others]
         return self._responses[number]
+
+
+def _denied_by(answers: Mapping[str, Any], settled: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    """What somebody answers who erred all along; None where that is not what is settled."""
+    return answers if all(equal(answers.get(label), value) for label, value in settled.items()) else None
 
 
 def _nth(within: Sequence[Over], nth: int) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:

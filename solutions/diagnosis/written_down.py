@@ -6,17 +6,17 @@ from itertools import combinations
 from math import isclose
 from typing import Any
 
-from sympy import Expr
+from sympy import Expr, sqrt
 
 from rldrill.problems.parts import Matrix, Number, Numbers, Part
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.alternatives import hashable, likely_share, plain
-from rldrill.solutions.diagnosis.arithmetic import slips
+from rldrill.solutions.diagnosis.arithmetic import beside_the_diagonal, slips
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.diagnosis.typed import Typed, approximate
-from rldrill.solutions.exact import is_rational
+from rldrill.solutions.exact import is_rational, simplest, to_sympy
 from rldrill.solutions.formula.edits import Probe
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import Quantity
@@ -43,6 +43,9 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
         for slip, other in slips(value):
             likely = likely_share(other) if of_shares and slip in weights.SLIPS else 1.0
             yield _cause(slip, name if len(key) > 1 else "", likely), {**key, name: other}
+    for called, (name, value) in zip(getattr(part.kind, "called", ()), key.items(), strict=False):
+        if called == "variance" and is_rational(value) and value > 0:
+            yield _cause("standard-deviation"), {**key, name: simplest(sqrt(to_sympy(value)))}
     if len(key) == 1:
         ((name, value),) = key.items()
         share = is_rational(value) and 0 < value < 1
@@ -55,14 +58,15 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
                 yield Cause("another-quantity", weight, application, on_paper=True), {name: application.value}
     shape = part.kind
     if isinstance(shape, Matrix) and shape.rows == shape.columns > 1:
+        places = range(1, shape.rows + 1)
+        names = [[f"row {row}, column {column}" for column in places] for row in places]
         yield (
             _cause("answer-transposed"),
-            {
-                f"row {row}, column {column}": key[f"row {column}, column {row}"]
-                for row in range(1, shape.rows + 1)
-                for column in range(1, shape.columns + 1)
-            },
+            {names[row][column]: key[names[column][row]] for row in range(shape.rows) for column in range(shape.rows)},
         )
+        for row, column in beside_the_diagonal([[key[name] for name in line] for line in names]):
+            one, two = names[row][column], names[column][row]
+            yield _cause("sign", f"{one} and {two}"), {**key, one: -key[one], two: -key[two]}
 
 
 def _other_quantities(key: Mapping[str, Any], applications: Sequence[Application]) -> WrittenDown:

@@ -255,6 +255,8 @@ def _of_sum(part: Expr) -> Iterator[Change]:
         yield "difference", _opposite(part), part, None
         if terms[0] == 1 and terms[1].is_Mul and terms[1].args[0] == -1:
             yield "complement", _unsigned(terms[1]), part, _unsigned(terms[1])
+        if (whole := _power_of_sum(*terms)) is not None:
+            yield "power-of-sum", whole, part, whole
     for place, term in enumerate(terms):
         factors = term.args
         if not term.is_Mul or factors[0] == -1:
@@ -273,6 +275,18 @@ def _of_sum(part: Expr) -> Iterator[Change]:
             if len(terms) > 2:
                 whole = Mul(*before, Add(*_others(terms, place), _product(behind), evaluate=False), evaluate=False)
                 yield "bracket", whole, part, None
+
+
+def _power_of_sum(one: Expr, other: Expr) -> Expr | None:
+    """(1 − γ)ⁿ for 1 − γⁿ, or (a + b)² for a² + b²; None of what are no two such powers."""
+    bare = _unsigned(other)
+    if not bare.is_Pow or bare.args[1] == -1 or not bare.is_commutative:
+        return None
+    base, exponent = bare.args
+    if one != 1 and not (one.is_Pow and one.args[1] == exponent):
+        return None
+    first = one if one == 1 else one.args[0]
+    return Pow(_sum([first, base if bare is other else _opposite(base)]), exponent, evaluate=False)
 
 
 def _of_product(part: Expr) -> Iterator[Change]:
@@ -329,6 +343,12 @@ def _of_power(part: Expr) -> Iterator[Change]:
     if exponent == -1:
         yield "inverse", base, part, base
         return
+    if base.is_Add and len(base.args) == 2 and base.is_commutative:
+        one, other = base.args
+        powers = [each if each == 1 else Pow(each, exponent, evaluate=False) for each in (one, _unsigned(other))]
+        second = powers[1] if _unsigned(other) is other else _opposite(powers[1])
+        split = _sum([powers[0], second])
+        yield "power-of-terms", split, part, split
     if exponent == sympy.S.Half:
         yield "root", base, part, base
         return
@@ -395,7 +415,7 @@ def _of_choice(part: Node) -> Iterator[Change]:
 
 
 def _exchanged(right: Expr) -> Iterator[Change]:
-    """Two letters in each other's place, or one in the place of another."""
+    """Two letters in each other's place, or one in the place of another; the sine and the cosine of an angle."""
     letters = sorted(
         (symbol for symbol in right.free_symbols if symbol.name not in COUNTING and symbol.name not in TWINS),
         key=str,
@@ -406,6 +426,10 @@ def _exchanged(right: Expr) -> Iterator[Change]:
             yield "exchanged", _with(right, {one: two, two: one}), one, two
             yield "confused", _with(right, {one: two}), one, two
             yield "confused", _with(right, {two: one}), two, one
+    for sine in sorted(right.atoms(sympy.sin), key=str):
+        cosine = sympy.cos(sine.args[0], evaluate=False)
+        if right.has(cosine):
+            yield "exchanged", _with(right, {sine: cosine, cosine: sine}), sine, cosine
 
 
 def _with(expression: Expr, letters: Mapping[Expr, Expr]) -> Expr:

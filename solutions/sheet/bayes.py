@@ -239,6 +239,9 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, table 2.1, line 3",
         hint="Sum over the states that may come before: the probability of each, times that of the way here.",
         place=Place.WORKING,
+        misread={
+            MOTION_TRANSPOSED: SumOver(motion(s, s1, a) * p(s), s, States),
+        },
     )
     BELIEF_NOT_NORMALISED = Misconception(
         "not-normalised", "The belief sums to 1: divide by p(z), the sum over all states."
@@ -316,6 +319,11 @@ with evaluate(False):
         "The more certain of the two counts more: weigh with the inverse of its variance, not with the variance.",
         when=_weighed,
     )
+    MOTION_NOISE_AGAIN = Misconception(
+        "motion-noise-again",
+        "The noise of the motion is in Σ̄ already: in the gain only that of the sensor is added to it.",
+        when=_on_a_line,
+    )
     KALMAN_GAIN = Formula(
         "kalman-gain",
         Kt(t),
@@ -329,6 +337,9 @@ with evaluate(False):
             NOISES_EXCHANGED: covariance_bar(t)
             * Transposed(Ci)
             * Pow(Ci * covariance_bar(t) * Transposed(Ci) + Ri, -1),
+            MOTION_NOISE_AGAIN: covariance_bar(t)
+            * Transposed(Ci)
+            * Pow(Ci * covariance_bar(t) * Transposed(Ci) + Ri + Qi, -1),
         },
     )
     GAIN_ON_PREDICTION = Misconception(

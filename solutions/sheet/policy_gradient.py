@@ -281,6 +281,10 @@ with evaluate(False):
         "features-averaged-alike",
         "In the expected features each action counts with its probability π(a′|s), not all with the same weight.",
     )
+    OWN_SHARE_ALONE = Misconception(
+        "own-share-alone",
+        "The expected features are those of all actions, each with its own; not π(a|s) f(s, a) alone.",
+    )
     SCORE_FUNCTION = Formula(
         "score-function",
         score(a, s),
@@ -293,13 +297,14 @@ with evaluate(False):
             FEATURES_ALONE: f_vector(s, a),
             EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices),
             LOG_FORGOTTEN: pi(a, s) * (f_vector(s, a) - SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices)),
+            OWN_SHARE_ALONE: (1 - pi(a, s)) * f_vector(s, a),
             FEATURES_ALIKE: f_vector(s, a) - Pow(Size(Choices), -1) * SumOver(f_vector(s, a1), a1, Choices),
         },
     )
 
     NEXT_VALUE_FORGOTTEN = Misconception(
         "next-value-forgotten",
-        "The critic's target is the reward plus γ times the value of the next state.",
+        "The target is the reward plus γ times the value of the next state.",
         when=lambda given: any(state not in given.trajectory.terminal for state in given.trajectory.states[1:]),
     )
     TD_ERROR = Formula(

@@ -102,11 +102,22 @@ def counts_forgotten(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"counts": {state: min(count, 1) for state, count in given.counts.items()}}), work)
 
 
+@slip(
+    "counted-from-this-run",
+    "The old value is the mean of n(s) returns already: counting goes on from there, not from 0.",
+    when=lambda given: given.alpha is None and any(given.counts.get(state, 0) for state in given.visited),
+)
+def counted_anew(given: Given, work: Work) -> None:
+    """Every state as if it had never been visited."""
+    solve(given.model_copy(update={"counts": dict.fromkeys(given.counts, 0)}), work)
+
+
 MISCONCEPTIONS = (
     NOT_COUNTED,
     COUNTED_TWICE,
     MEAN_OF_TWO.where_it_shows(),
     counts_forgotten.where_it_shows(),
+    counted_anew.where_it_shows(),
     OLDEST_FIRST,
     ONE_POWER_MORE,
     EQUAL_WEIGHTS,

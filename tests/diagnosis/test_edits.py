@@ -10,8 +10,10 @@ from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, edits, pr
 from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.sheet import formulas
-from rldrill.solutions.sheet.bayes import BAYES
+from rldrill.solutions.sheet.bayes import BAYES, SQUARES
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_V, V_FROM_Q
+from rldrill.solutions.sheet.beyond_the_sheet import LINK_ORIGIN
+from rldrill.solutions.sheet.fundamentals import GEOMETRIC_SERIES
 from rldrill.solutions.sheet.policy_gradient import SCORE_FUNCTION
 from rldrill.solutions.sheet.temporal_difference import N_STEP_RETURN, TD_ZERO
 
@@ -51,6 +53,15 @@ def test_a_bracket_begins_too_early_behind_a_factor_and_never_behind_a_minus_alo
 
 def test_a_quotient_is_turned_upside_down() -> None:
     assert "1/((p(z|h) p(h))/(Σₕ′ p(z|h′) p(h′)))" in written(BAYES)["upside-down"]
+
+
+def test_a_power_of_a_sum_is_taken_for_the_sum_of_the_powers() -> None:
+    assert written(GEOMETRIC_SERIES)["power-of-sum"] == {"(Σᵢ₌₀ⁿ⁻¹ γⁱrₜ₊₁₊ᵢ)/(1 − γ)ⁿ"}
+    assert written(SQUARES)["power-of-terms"] == {"Σᵢ₌₁ⁿ (xᵢ² − x̄²)"}
+
+
+def test_the_sine_and_the_cosine_of_an_angle_are_exchanged() -> None:
+    assert "[aᵢ sin(θᵢ) ; aᵢ cos(θᵢ) ; dᵢ]" in written(LINK_ORIGIN)["exchanged"]
 
 
 def test_a_sum_begins_one_later_or_ends_one_earlier_or_later() -> None:

@@ -7,8 +7,11 @@ import pytest
 from pydantic import BaseModel, ConfigDict, Field
 
 import rldrill
+from rldrill.problems.catalogue import selection
 from rldrill.problems.exact import Exact
+from rldrill.problems.family import Family
 from rldrill.solutions.diagnosis.givens import misread, ordinal
+from rldrill.solutions.drawing import draw
 
 # V(cave) = 8, V(floor) = 10, V(rim) = 6, rewards 7, −3 and 5, α = 1/4, γ = 1/2.
 RUN = {
@@ -109,8 +112,8 @@ READ_WRONGLY = [
     ("entry-left-out", "second of the matrix", {"matrix": ((1, 2),)}),
     ("minus-lost", "the second row of matrix", {"matrix": ((1, 2), (3, 4))}),
     ("givens-exchanged", "second row of matrix", {"matrix": ((1, 2), (-4, 3))}),
-    ("one-too-many", "count", {"inner": {"u": {"count": 8}}}),
-    ("one-too-few", "count", {"inner": {"u": {"count": 6}}}),
+    ("one-too-many", "count of u", {"inner": {"u": {"count": 8}}}),
+    ("one-too-few", "count of u", {"inner": {"u": {"count": 6}}}),
 ]
 
 
@@ -128,8 +131,8 @@ def test_equal_numbers_are_not_exchanged_and_a_share_is_between_0_and_1() -> Non
         ("entry-left-out", "first of the matrix"),
         ("entries-exchanged", "matrix, first and second"),
         ("entry-left-out", "second of the matrix"),
-        ("one-too-many", "count"),
-        ("one-too-few", "count"),
+        ("one-too-many", "count of u"),
+        ("one-too-few", "count of u"),
     ]
 
 
@@ -202,6 +205,32 @@ def test_rewards_at_the_end_are_taken_for_worthless() -> None:
     # V(room) = 0, V(hall) = 1/2 · (2 + 0), where V(room) = 8 and V(hall) = 1/2 · (2 + 4) + 1/2 · 4 = 5 are right.
     said = exercise.diagnose("hall: 1, room: 0", "a").sentence
     assert "the rewards for reaching a terminal state are left out" in said
+
+
+@pytest.mark.parametrize("family", selection([]), ids=lambda family: family.name)
+def test_what_was_misread_is_said_so_that_it_is_one_thing(family: Family) -> None:
+    for level in family.levels:
+        found: dict[tuple[str, str], Any] = {}
+        for each in misread(draw(family.name, level, 101).problem.given):
+            if "row of" not in each.what:  # two numbers of one row
+                assert found.setdefault((each.kind, each.what), each.given) == each.given
+
+
+class Tables(Exactly):
+    features: dict[str, tuple[Exact, ...]] = {}
+    ways: dict[str, dict[str, Exact]] = {}
+
+
+def test_a_table_is_read_by_columns_and_two_numbers_of_a_row_are_exchanged() -> None:
+    given = Tables(features={"a": (1, 2), "b": (3, 3)}, ways={"u": {"u": 4, "v": 5}, "v": {"u": 6, "v": 7}})
+    found = {each.what: each.given for each in misread(given) if each.kind == "rows-and-columns"}
+    assert found["features"].features == {"a": (1, 3), "b": (2, 3)}
+    assert found["ways"].ways == {"u": {"u": 4, "v": 6}, "v": {"u": 5, "v": 7}}
+    (one,) = [each for each in misread(given) if each.what == "features of a, first and second"]
+    assert one.given.features == {"a": (2, 1), "b": (3, 3)}
+    # What is no square has no columns in the place of rows.
+    wide = Tables(features={"a": (1, 2, 3), "b": (4, 5, 6)}, ways={"u": {"v": 4}, "v": {"u": 6}})
+    assert not [each for each in misread(wide) if each.kind == "rows-and-columns"]
 
 
 class List(BaseModel):

@@ -59,3 +59,33 @@ def test_a_slip_in_an_earlier_part_is_denied_by_its_right_answer() -> None:
     slip = "9 for 8 in R₀"  # V(cave) ← 4 + 1/2·(9 − 4) = 13/2, then 13/2 + 1/2·(5 − 13/2) = 23/4
     assert slip in exercise.diagnose("23/4", "b").sentence
     assert slip not in exercise.diagnose("23/4", "b", {"a": "8, 5"}).sentence
+
+
+def test_the_order_of_measurements_is_denied_by_the_belief_after_the_first() -> None:
+    # After x 3 to 1, after y 3/4·1/8 to 1/4·1/2, so 3/7; with x once more it is 9 to 1, as with "x, y" read as "y, x"
+    # by somebody who goes on from 3 to 1.
+    given = {
+        "prior": {"sound": "1/2", "worn": "1/2"},
+        "likelihood": {
+            "x": {"sound": "3/4", "worn": "1/4"},
+            "y": {"sound": "1/8", "worn": "1/2"},
+            "z": {"sound": "1/8", "worn": "1/4"},
+        },
+        "measurements": ["x", "y"],
+    }
+    exercise = rldrill.read({"family": "bayes-rule", "given": given})
+    said = exercise.diagnose("9/10, 1/10", "b", {"a": "3/4, 1/4"}).sentence
+    assert "the second of the measurements is taken over from the one before" in said
+    assert "order" not in said
+
+
+def test_what_gives_the_wrong_answer_before_as_well_is_told_again() -> None:
+    # floor ← −4 + 1/4·(9 + 3/4·x + 4), then rim from there, then floor ← 3/4·floor + 2, which is 2: floor was 0, x = 4.
+    # With 9 + 3/4·x − 4 in the first bracket x = 44/3, and rim ← 44/3 + 1/4·(6 + 0 − 44/3) = 25/2.
+    run = {"states": ["floor", "rim", "floor", "end"], "rewards": [9, 6, 8], "terminal": ["end"]}
+    given = {"known": 2, "trajectory": run, "values": {"rim": "x", "floor": -4}, "alpha": "1/4", "gamma": "3/4"}
+    exercise = rldrill.read({"family": "td-zero", "given": given})
+    assert not exercise.diagnose("25/2", "b").explains
+    assert exercise.diagnose("25/2", "b", {"a": "44/3"}).sentence == (
+        "It looks as if V(sₜ) has the wrong sign in the first update (t = 0)."
+    )

@@ -111,6 +111,14 @@ def test_slips_in_a_matrix_are_those_in_its_entries_and_all_signs() -> None:
     assert [other[0, 1] for kind, other in slips(matrix([[fmpq(0), fmpq(2)]])) if kind == "doubled"] == [4]
 
 
+def test_the_sign_of_what_is_beside_the_diagonal_of_a_symmetric_matrix_is_lost() -> None:
+    symmetric, other = (
+        [[fmpq(each) for each in row] for row in rows] for rows in ([[1, -2], [-2, 3]], [[1, 2], [4, 3]])
+    )
+    assert ("sign", [[1, 2], [2, 3]]) in [(kind, found.tolist()) for kind, found in slips(matrix(symmetric))]
+    assert [[1, -2], [-4, 3]] not in [found.tolist() for _, found in slips(matrix(other))]
+
+
 @pytest.mark.parametrize(
     ("one", "two", "wrong"),
     [("1/2", "1/3", "2/5"), ("3/4", "5/6", "4/5"), ("1/2", "3/2", None), ("1/2", "3", None), ("2", "1/3", None)],
