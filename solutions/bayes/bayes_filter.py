@@ -75,7 +75,9 @@ def _filter(
             belief = _moved(work, event, before, now)
     if given.ahead is not None:
         _told(work, given.ahead)
-        belief = _moved(work, given.ahead, start if afresh else belief, known)
+        belief = start if afresh else belief
+        if _moved in moves:
+            belief = _moved(work, given.ahead, belief, known)
         if given.ahead.action is None:
             work.say("There is no action, so $p̄ = p$.")
         work.answer(work.step(READING, z=given.ahead.measurement, p_bar=belief, **known))
@@ -151,7 +153,7 @@ def _before_others(given: Given) -> Sequence[Event]:
     "An action moves the belief, too: first sum over the states that the robot may come from.",
 )
 def motion_skipped(given: Given, work: Work) -> None:
-    """The measurement of every step alone."""
+    """The measurement of every step alone, the step ahead among them."""
     _filter(given, work, (_weighed,))
 
 
