@@ -1,76 +1,54 @@
 """Which wrong answers are told in a list: none that the statement itself rules out, for nobody hands them in."""
 
-import math
 import re
-from collections.abc import Iterator
-from decimal import Decimal
+from collections.abc import Iterator, Mapping
 from operator import le, lt
 from typing import Any
 
-from msgspec import Struct
-
-from rldrill.exercise import Exercise
 from rldrill.problems.document import Paragraph
 from rldrill.problems.mathematics import Glyph, Math, Row
 from rldrill.problems.parts import Part
-from rldrill.render.mathematics.unicode import inline
-from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.exact import decimal, parameters
+from rldrill.solutions.exact import ONE, Value, parameters, sign
+from rldrill.solutions.solution import Solution
 
 #: What a statement says of a letter: 0 < p < 1.
-_BOUNDS = re.compile(r"(\d+) ([<≤]) (\w) ([<≤]) (\d+)")
-#: The letter that is asked for, and what it is called: What is the discount γ?
-_ASKED = re.compile(r"[Ww]hat is (?:the ([\w ]+) )?(\w)\?")
-#: What is called so lies between 0 and 1, whether the statement says it or not.
-_SHARES = frozenset({"discount", "exploration rate", "probability"})
-#: The same, said before: The probability q is unknown.
-_UNKNOWN = re.compile(rf"[Tt]he (?:{'|'.join(sorted(_SHARES))}) (\w) is (?:unknown|not known)")
+_BOUNDS = re.compile(r"0 ([<≤]) (\w) ([<≤]) 1\b")
 _PROBABILITIES = frozenset({Glyph("p", "variable"), Glyph("π", "variable"), Glyph("Pr", "word")})
 _SIGNS = {"<": lt, "≤": le}
-_DIGITS = 12
 
 
-class _Range(Struct, frozen=True):
-    """Between which numbers another one must lie; the signs say whether it may be one of them."""
-
-    low: Decimal = Decimal(0)
-    high: Decimal = Decimal(1)
-    below: str = "≤"
-    above: str = "≤"
-
-    def holds(self, value: Any) -> bool:
-        """Whether a number lies there; an expression in a parameter may, and what is no number does."""
-        if isinstance(value, str | tuple | bool) or parameters(value):
-            return True
-        number = Decimal(decimal(value, _DIGITS) or self.low)
-        return _SIGNS[self.below](self.low, number) and _SIGNS[self.above](number, self.high)
+def is_possible(solution: Solution, label: str, answers: Mapping[str, Any]) -> bool:
+    """Whether somebody can hand in an answer to a part: the statement leaves room for it, and for those before it."""
+    parts = solution.problem.parts
+    last = next(place for place, part in enumerate(parts) if part.label == label)
+    return all(_has_room(solution, part, answers[part.label]) for part in parts[: last + 1] if part.label in answers)
 
 
-#: What is not divided by its sum may exceed 1, but no probability is negative, however it is found.
-_PROBABILITY = _Range(high=Decimal(math.inf))
-
-
-def is_possible(exercise: Exercise, part: Part, value: Any) -> bool:
-    """Whether the statement leaves room for an answer: no probability is negative, and 0 < p < 1 where it says so."""
-    kind, ranges = answer_kind(part.kind), list(_ranges(exercise, part))
-    cells, lines = list(kind.cells(value).values()), kind.lines(value)
+def _has_room(solution: Solution, part: Part, value: Any) -> bool:
+    """No probability is negative, and a letter has no value that it cannot have, or that the statement denies."""
+    kind = solution.kinds[part.label]
+    cells = [cell for cell in kind.cells(value).values() if not isinstance(cell, str | tuple | bool)]
+    numbers, lines = [cell for cell in cells if not parameters(cell)], kind.lines(value)
     if len(lines) == len(cells) and any(_is_probability(left) for left, _ in lines):
-        ranges.append(_PROBABILITY)
-    return all(each.holds(cell) for cell in cells for each in ranges)
+        # What is not divided by its sum may exceed 1.
+        return all(sign(number) >= 0 for number in numbers)
+    letter = solution.sought.get(part.label)
+    return letter is None or all(
+        solution.can_be(letter, number) and all(_within(number, *bounds) for bounds in _bounds(solution, letter.sign))
+        for number in numbers
+    )
 
 
-def _ranges(exercise: Exercise, part: Part) -> Iterator[_Range]:
-    ask = inline(part.ask)
-    asked = _ASKED.search(ask)
-    if asked is None:
-        return
-    texts = (inline(block.text) for block in exercise.question() if isinstance(block, Paragraph))
-    told = " ".join((*texts, ask))
-    if asked[1] in _SHARES or asked[2] in _UNKNOWN.findall(told):
-        yield _Range()
-    for low, below, letter, above, high in _BOUNDS.findall(told):
-        if letter == asked[2]:
-            yield _Range(Decimal(low), Decimal(high), below, above)
+def _bounds(solution: Solution, letter: str) -> Iterator[tuple[str, str]]:
+    """The signs between 0 and a letter, and between it and 1, in what the statement says of it."""
+    question = solution.problem.question
+    told = (block.text for block in question.blocks if isinstance(block, Paragraph))
+    for text in (*told, *(part.ask for part in question.parts)):
+        yield from ((low, high) for low, named, high in _BOUNDS.findall(text) if named == letter)
+
+
+def _within(number: Value, low: str, high: str) -> bool:
+    return _SIGNS[low](0, sign(number)) and _SIGNS[high](sign(number - ONE), 0)
 
 
 def _is_probability(left: Math | None) -> bool:
