@@ -186,16 +186,20 @@ def drawn_robot(rng: Draws, use: str, level: int) -> Robot:
 
 
 def values_of(rng: Draws, robot: Robot) -> dict[str, Any]:
-    """A robot with values for its letters."""
+    """A robot with values for its letters; constants that differ in their index alone, as c₁ and c₂, are not equal."""
+    constants = {name: rng.choice(values) for name, values in robot.constants.items()}
+    if len({(name.partition("_")[0], value) for name, value in constants.items()}) < len(constants):
+        return values_of(rng, robot)
     return {
         **({"reward": robot.reward} if robot.reward else {}),
         "story": robot.story,
         **({"picture": robot.picture} if robot.picture else {}),
         "dynamics": robot.dynamics,
         "where": robot.where,
+        "constants": constants,
         **{
             field: {name: rng.choice(values) for name, values in getattr(robot, field).items()}
-            for field in ("constants", "state", "action")
+            for field in ("state", "action")
         },
     }
 

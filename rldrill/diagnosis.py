@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from rldrill.background import in_background
 from rldrill.misreading import misread_lines
+from rldrill.possible import is_possible
 from rldrill.problems.document import Equation
 from rldrill.problems.notations import in_notation
 from rldrill.render.differences import differences, marked
@@ -136,7 +137,8 @@ class Diagnosis(Struct, frozen=True):
 class WrongAnswer(Struct, frozen=True):
     """A wrong answer to a part, as it is typed, and what it comes from.
 
-    ``lines`` is the step or formula as it was taken, and as it should be, where there is one.
+    ``lines`` is the step or formula as it was taken, and as it should be, where there is one; ``possible`` says whether
+    the statement leaves room for the answer, and for those that come before it.
     """
 
     part: str
@@ -144,6 +146,7 @@ class WrongAnswer(Struct, frozen=True):
     kind: str
     sentence: str
     lines: tuple[Equation, Equation] | None = None
+    possible: bool = True
 
     def __repr__(self) -> str:
         return f"<WrongAnswer ({self.part}) {self.answer}: {self.sentence}>"
@@ -264,7 +267,8 @@ class Diagnosing:
                     said = _diagnosis(candidate.cause, search.applications, 1.0)
                     text = kind.write(candidate.answers[label])
                     lines = self._lines(candidate.cause, said)
-                    found.setdefault(text, WrongAnswer(label, text, said.kind, said.sentence, lines))
+                    possible = is_possible(self.solution, label, candidate.answers)
+                    found.setdefault(text, WrongAnswer(label, text, said.kind, said.sentence, lines, possible))
         return tuple(found.values())
 
     def _lines(self, cause: Cause, said: Diagnosis) -> tuple[Equation, Equation] | None:

@@ -1,6 +1,7 @@
 """A solver for every family, and the solution of a problem: answers, working, what mistakes give."""
 
 import importlib.util
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cache, cached_property, lru_cache
@@ -11,13 +12,13 @@ from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.errors import BrokenFamily
-from rldrill.problems.exact import PARAMETERS, SHARES, Parameter
+from rldrill.problems.exact import SHARES, Parameter
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.answers.kinds import Answer, answer_kind
 from rldrill.solutions.answers.rule import apart
-from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, told
+from rldrill.solutions.exact import ONE, NoSolution, NotGiven, NotReal, Value, sign, told
 from rldrill.solutions.formula.formula import Formula, Misconception
-from rldrill.solutions.work import Line, Recalled, Step, Work
+from rldrill.solutions.work import Found, Line, Recalled, Step, Work
 
 
 class Solver(Struct, frozen=True):
@@ -121,6 +122,23 @@ class Solution(Struct, frozen=True, dict=True):
         """Whether a marker can tell two answers to a part from each other."""
         kind = self.kinds[label]
         return _differ(self.cells[label] if one is self.answers[label] else kind.cells(one), kind.cells(other))
+
+    @cached_property
+    def sought(self) -> Mapping[str, Found]:
+        """The letters that parts ask for, by the parts."""
+        asks = {part.label: part.ask for part in self.problem.parts}
+        return {
+            label: found
+            for label, answer in self.answers.items()
+            for found in self.work.letters
+            if type(answer) is type(found.value)
+            and answer == found.value
+            and re.search(rf"(?<!\w){found.sign}(?!\w)", asks[label])
+        }
+
+    def can_be(self, found: Found, value: Value) -> bool:
+        """Whether a letter that was found can have a value, too."""
+        return _is_in_range(found, value, self.problem)
 
     @property
     def lines(self) -> tuple[Line, ...]:
@@ -265,20 +283,24 @@ def _check_found(problem: Problem, work: Work) -> None:
         NoSolution: a discount, a chance or a step size would be below 0 or above 1.
     """
     answers = list(work.answers.values())
-    for letter, value in work.letters:
-        if type(value) is fmpq and value in answers and not _is_in_range(letter, value, problem):
-            name, where = PARAMETERS.get(letter, letter), "lies between 0 and 1" if value else "is above 0"
-            raise NoSolution(f"{name} would have to be {told(value)}, and it {where}; change what is known")
+    for found in work.letters:
+        value = found.value
+        if type(value) is fmpq and value in answers and not _is_in_range(found, value, problem):
+            where = "lies between 0 and 1" if value else "is above 0"
+            raise NoSolution(f"{found.sign} would have to be {told(value)}, and it {where}; change what is known")
 
 
-def _is_in_range(letter: str, value: fmpq, problem: Problem) -> bool:
+def _is_in_range(found: Found, value: Value, problem: Problem) -> bool:
     """Whether a letter can have a value: it is held by what it stands for, whatever it is called."""
-    if 0 < value <= 1:
-        return True
+    above = sign(value)
+    if found.positive or (above > 0 and sign(value - ONE) <= 0):
+        return above > 0
+    letter = found.letter
     stands_for = {letter, *(name for name in _SHARES if letter in _letters(getattr(problem.given, name, None)))}
-    if value == 0:
+    if above == 0:
         return "alpha" not in stands_for
-    return not stands_for & _RANGED and repr(f"1-{letter}") not in str(problem.given.model_dump())
+    ranged = found.share or stands_for & _RANGED
+    return not ranged and repr(f"1-{letter}") not in str(problem.given.model_dump())
 
 
 def _letters(field: object) -> Iterator[str]:

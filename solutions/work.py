@@ -208,6 +208,20 @@ def _terms(step: Step) -> tuple[Expr, ...]:
     return () if line is None else (line,)
 
 
+class Found(NamedTuple):
+    """A letter and the value that solves its equation; whether it is known to be a share, or above 0."""
+
+    letter: str
+    value: Any
+    share: bool
+    positive: bool
+
+    @property
+    def sign(self) -> str:
+        """The letter as questions have it."""
+        return PARAMETERS.get(self.letter, self.letter)
+
+
 Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination
 
 
@@ -247,7 +261,7 @@ class Work:
     answers: dict[str, Any] = field(default_factory=dict)
     ends: dict[str, int] = field(default_factory=dict)
     read: dict[Formula, None] = field(default_factory=dict)
-    letters: list[tuple[str, Any]] = field(default_factory=list)
+    letters: list[Found] = field(default_factory=list)
 
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
@@ -392,7 +406,7 @@ class Work:
         if sign(slope) < 0:
             slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(tidy(ZERO - constant / slope)))
-        self.letters.append((letter, value))
+        self.letters.append(Found(letter, value, share, positive))
         if self.misconception is None and ((share and not 0 <= value <= 1) or (positive and value <= 0)):
             between = "lies between 0 and 1" if share else "is above 0"
             raise NoSolution(f"{PARAMETERS.get(letter, letter)} would have to be {told(value)}, and it {between}")

@@ -39,7 +39,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Bellman residual"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6 and 11.4"
-REVISION = 7
+REVISION = 8
 
 #: The largest reward that is put in for the one that is asked for.
 _LARGEST = 12

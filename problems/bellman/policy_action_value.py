@@ -13,7 +13,7 @@ from rldrill.problems.valued import deterministic, draw_mixed, draw_valued, poli
 
 TITLE = "Action values of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.2"
-REVISION = 5
+REVISION = 6
 
 
 class Given(ModelAndPolicy):
@@ -34,7 +34,7 @@ def draw(level: int, rng: Draws) -> Given:
     gamma, (onward, back) = rng.fraction("1/2", "2/3"), setting.actions[:2]
     third = Fraction(1, 3)
     values: dict[str, Fraction] = {}
-    while not values or not tells_apart(mdp.transitions, values, gamma):
+    while not values or 0 in values.values() or not tells_apart(mdp.transitions, values, gamma):
         mdp = draw_model(rng, setting, shape)
         taken = {rng.choice((onward, back)): Fraction(1)}
         first, second = mdp.states

@@ -1,5 +1,6 @@
 """The Jacobian of a planar arm, the velocity of its end, and whether the configuration is singular."""
 
+from itertools import accumulate
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -15,7 +16,7 @@ from rldrill.problems.parts import Matrix, Numbers, Part, YesNo
 
 TITLE = "Jacobian of an arm"
 SOURCE = "Siciliano et al. 2009, section 3.2.1"
-REVISION = 6
+REVISION = 7
 
 _STRAIGHT = (read_angle("0"), read_angle("pi"))
 
@@ -70,7 +71,7 @@ def draw(level: int, rng: Draws) -> Given:
     singular = rng.chance(Fraction(1, 2))
     count = 3 if level > 1 and rng.chance(Fraction(level - 1, 4)) else 2
     lengths = rng.distinct(count, 1, 4 if level < 3 else 6)
-    rates = rng.shuffled(_RATES)[:count]
+    rates = _rates(rng, count)
     if level == 3 and count == 2:
         first, second = rng.choice(_DIAGONAL), rng.choice(_RIGHT)
         return Given(lengths=lengths, angles=(first, second), velocity=_moved(lengths, (first, second), rates))
@@ -80,6 +81,12 @@ def draw(level: int, rng: Draws) -> Given:
     if singular:
         second = rng.choice(_STRAIGHT)
     return Given(lengths=lengths, angles=(first, second, *rest), rates=rates, orientation=level == 3)
+
+
+def _rates(rng: Draws, count: int) -> tuple[Fraction, ...]:
+    """Rates with which every link turns: with a sum of 0 one keeps its direction, whatever its length and angle."""
+    rates = tuple(rng.shuffled(_RATES)[:count])
+    return rates if all(accumulate(rates)) else _rates(rng, count)
 
 
 _RATES = tuple(map(Fraction, (-2, -1, 1, 2, 3)))

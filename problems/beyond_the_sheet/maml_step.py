@@ -9,13 +9,13 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import in_open
 
 TITLE = "MAML step"
 SOURCE = "Finn, Abbeel & Levine 2017, section 2.2"
-REVISION = 6
+REVISION = 7
 
 
 class Task(NamedTuple):
@@ -111,9 +111,10 @@ def _staying(rng: Draws) -> Given:
 
 
 def _step_sought(rng: Draws) -> Given:
-    """First β, then what it leads to."""
+    """First β, which is not α, then what it leads to."""
     theta, tasks, alpha = _drawn(rng, 2)
-    changed = rng.fraction("1/2", "1/4", "1/3", "1/5") * _slope(theta, tasks, alpha)
+    beta = rng.fraction(*(each for each in ("1/2", "1/4", "1/3", "1/5") if fraction_of(each) != alpha))
+    changed = beta * _slope(theta, tasks, alpha)
     return Given(theta=theta, tasks=tasks, alpha=alpha, after=theta - changed)
 
 

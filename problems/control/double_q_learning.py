@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
-REVISION = 8
+REVISION = 9
 DISTRACTORS = (
     "values.*",  # both tables have the values of other pairs, too
     "second.*",
@@ -80,7 +80,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _moves(given: Given) -> bool:
-    """Whether every transition changes a value, and the two tables differ in the value that its target takes."""
+    """Whether every transition changes a value, and with the tables exchanged its target takes another one."""
     tables = [{state: dict(row) for state, row in table.items()} for table in (given.values, given.second)]
     run = given.trajectory
     for number, state, action, after, reward in zip(
@@ -89,9 +89,8 @@ def _moves(given: Given) -> bool:
         mine, other = tables[number - 1], tables[2 - number]
         ahead = Fraction(0)
         if after not in given.terminal:
-            best = max(mine[after], key=mine[after].__getitem__)
-            ahead = other[after][best]
-            if ahead == mine[after][best]:
+            ahead = other[after][_best(mine[after])]
+            if ahead in (max(mine[after].values()), mine[after][_best(other[after])]):
                 return False
         gap = reward + Fraction(given.gamma) * ahead - mine[state][action]
         if gap == 0:
@@ -106,7 +105,7 @@ def _back(rng: Draws) -> Given:
 
     def worth(row: Mapping[str, Fraction], _: str) -> Fraction:
         seen.append(_other_row(rng, row, 4))
-        return seen[-1][max(row, key=row.__getitem__)]
+        return seen[-1][_best(row)]
 
     found = draw_back(rng, draw_setting(rng), 3, worth, rng.choice(("alpha", "gamma")))
     mine, entered = found.pop("values"), found["trajectory"].states[-1]
@@ -117,14 +116,19 @@ def _back(rng: Draws) -> Given:
 
 
 def _other_row(rng: Draws, row: Mapping[str, Fraction], unit: int) -> dict[str, Fraction]:
-    """New values for the same actions, with another action as the best one, and another value of the best one."""
-    best = max(row, key=row.__getitem__)
+    """New values for the same actions, with another one as the best; of the row's best action they say neither what the
+    row says of it, nor what it says of their own best one.
+    """
+    best = _best(row)
     other = draw_rows(rng, ("here",), tuple(row), unit)["here"]
-    top = max(other, key=other.__getitem__)
     instead = rng.choice([action for action in row if action != best])
-    if top == best:
+    if _best(other) == best:
         other |= {best: other[instead], instead: other[best]}
-    return other if other[best] != row[best] else _other_row(rng, row, unit)
+    return other if other[best] not in (row[best], row[_best(other)]) else _other_row(rng, row, unit)
+
+
+def _best(row: Mapping[str, Fraction]) -> str:
+    return max(row, key=row.__getitem__)
 
 
 _TIES = " Among equally good actions, the one that stands first in the table is selected."
@@ -139,7 +143,7 @@ def _ties(given: Given) -> bool:
         ahead = Fraction(0)
         if entered not in given.terminal:
             row = mine[entered]
-            best = max(row, key=row.__getitem__)
+            best = _best(row)
             if (number, entered) in moved or [*row.values()].count(row[best]) > 1:
                 return True
             ahead = other[entered][best]

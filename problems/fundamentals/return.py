@@ -17,7 +17,7 @@ from rldrill.problems.runs import per_step
 
 TITLE = "Return"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 4
+REVISION = 5
 
 #: The two episodes that are compared.
 EPISODES = {"A": "the first", "B": "the second"}

@@ -25,7 +25,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR over a finite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 5
+REVISION = 6
 
 
 class Given(LinearQuadratic, Conventional):
@@ -74,8 +74,10 @@ def draw(level: int, rng: Draws) -> Given:
     horizon = 2 if kind in ("twice", "two states twice", "end", "discount") else 1
     while True:
         system = draw_system(rng, states, rng.whole(1, 4))
-        if kind == "end":
+        if kind == "end" or (discounted and states == 1):
             system["Q_T"] = ((rng.whole(4, 8),),)
+        elif discounted:  # as the matrices of all times stand there, they are not the same one
+            system["Q_T"] = tuple(line[::-1] for line in system["Q"][0][::-1])
         start = tuple(rng.nonzero(-3, 4) for _ in range(states))
         given = Given(**system, start=start, horizon=horizon, gamma=gamma)
         gains, values = _backwards(given)

@@ -26,7 +26,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR gain"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Conventional):
@@ -97,7 +97,8 @@ def draw(level: int, rng: Draws) -> Given:
     """Scalars; then two states and one action, with a discount or a state; then the price left open, or two actions."""
     if level == 1:
         b, p = rng.whole(1, 2), -rng.whole(1, 4)
-        a, r = rng.shuffled([number for number in map(Fraction, (1, 2, 3, 4)) if number != b])[:2]
+        a, *others = rng.shuffled([number for number in map(Fraction, (1, 2, 3, 4)) if number != b])
+        r = next(number for number in others if number != -p)  # or one could be taken for the other
         return Given(A=((a,),), B=((b,),), R=((r,),), P=((p,),))
     kind = rng.choice(("plain", "start", "discount", "both") if level == 2 else ("open", "found", "found", "two"))
     inputs = 2 if kind == "two" else 1

@@ -27,7 +27,7 @@ from rldrill.problems.softmax import (
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 7
+REVISION = 8
 
 #: The actor's chances are softmaxes of weights that hold softmaxes; deeper ones fill pages.
 _DEEPEST = 3
@@ -90,7 +90,7 @@ def draw(level: int, rng: Draws) -> Given:
             for state in _in_order(setting, states)
         },
         alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/5", "1/10"),
-        beta=rng.fraction("1/2", "1/4", "1/3" if level == 3 else "1/2") if level > 1 else rng.fraction("1", "1/4"),
+        beta=rng.fraction("1/2", "1/4", "1/3" if level == 3 else "1/2") if level > 1 else rng.fraction("1/2", "1/4"),
         gamma=rng.fraction("1/2", "1/2", "4/5") if level == 3 else rng.fraction("1/2", "1"),
     )
     return given if _first_error(given) != 1 else draw(level, rng)  # or nobody would see it forgotten

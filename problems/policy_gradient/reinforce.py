@@ -19,7 +19,7 @@ from rldrill.problems.softmax import (
 
 TITLE = "REINFORCE"
 SOURCE = "Sutton & Barto 2018, section 13.3"
-REVISION = 9
+REVISION = 10
 
 
 class Given(Episode):
@@ -35,7 +35,8 @@ def draw(level: int, rng: Draws) -> Given:
     run = episode["trajectory"]
     if not isinstance(gamma, Parameter):
         found = returns(run, gamma)
-        if not every_step_counts(run, found) or 0 in gradient(episode, found):  # a weight would stay as it is
+        alike = len(set(found)) < len(found)  # one return could be taken for another
+        if alike or not every_step_counts(run, found) or 0 in gradient(episode, found):  # a weight would stay as it is
             return draw(level, rng)
     return Given(**episode, alpha=rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5"))
 

@@ -12,7 +12,6 @@ from rldrill.entries import by_name
 from rldrill.exam.choices import Language
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.print.possible import is_possible
 from rldrill.print.solved import answer_block
 from rldrill.print.words import Words, words
 from rldrill.problems.document import Block, Equation, Paragraph
@@ -61,13 +60,14 @@ Cell = Word | Quantity
 class Wrong(Struct, frozen=True):
     """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it.
 
-    ``value`` is the answer as a solver would give it.
+    ``value`` is the answer as a solver would give it; ``possible`` says whether the statement leaves room for it.
     """
 
     cells: tuple[str, ...]
     value: Any
     says: str
     read: Equation | None
+    possible: bool = True
 
 
 def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Cell, ...]:
@@ -155,12 +155,12 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
         except Unreadable:
             continue  # a number so large that nobody types it
         value = answer_kind(part.kind).value({name: _content(cell) for name, cell in found.items()})
-        yield Wrong(tuple(map(_typed, found.values())), value, by_name(sentence, part.kind), read)
+        yield Wrong(tuple(map(_typed, found.values())), value, by_name(sentence, part.kind), read, wrong.possible)
 
 
 def listed(exercise: Exercise, part: Part) -> Iterator[Wrong]:
     """Wrong answers to a part that a reader is told; those that the statement rules out are recognised only."""
-    possible = (each for each in wrong_answers(exercise, part, 2 * _LISTED) if is_possible(exercise, part, each.value))
+    possible = (each for each in wrong_answers(exercise, part, 2 * _LISTED) if each.possible)
     return islice(possible, _LISTED)
 
 

@@ -7,8 +7,8 @@ from typing import Any
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
 from rldrill.misreading import misreading, said
+from rldrill.possible import is_possible
 from rldrill.print.exam_page import label
-from rldrill.print.possible import is_possible
 from rldrill.print.words import Words, words, written_points
 from rldrill.problems.document import Block, Equation
 from rldrill.problems.mathematics import EMPTY, Math, name
@@ -91,7 +91,9 @@ def _wrong(exercise: Exercise, part: Part, told: Words) -> Iterator[tuple[str, M
             return
         answer = answers[part.label]
         written = answer_kind(part.kind).write(answer)
-        if written in known or not _tells(exercise, part, answer) or not is_possible(exercise, part, answer):
+        if written in known or not _tells(exercise, part, answer):
+            continue
+        if not is_possible(exercise.solution, part.label, answers):
             continue
         known.add(written)
         if isinstance(part.kind, Choice):

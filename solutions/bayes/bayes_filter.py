@@ -153,7 +153,7 @@ def _before_others(given: Given) -> Sequence[Event]:
     "An action moves the belief, too: first sum over the states that the robot may come from.",
 )
 def motion_skipped(given: Given, work: Work) -> None:
-    """The measurement of every step alone."""
+    """The measurement of every step alone, the step ahead among them."""
     _filter(given, work, (_weighed,))
 
 

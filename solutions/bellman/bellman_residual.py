@@ -12,7 +12,7 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model
 from rldrill.problems.valued import with_reward, worth
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import NoSolution, Value, equals, exact, is_zero
+from rldrill.solutions.exact import ZERO, NoSolution, Value, equals, exact, is_zero
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
@@ -86,7 +86,12 @@ def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
     of_state = f'$V("{row.state}")$'
     beaten = f"{begun(joined(less))} {'is' if len(less) == 1 else 'are'} worth less than {of_state}"
     work.say(f"{beaten}, so {row.action} must reach it:")
-    reward = work.equate(letter, worths[row.action], V[row.state])
+    if work.misreads(BELLMAN_OPTIMALITY_RESIDUAL):
+        alone = known if work.misconception == RESIDUAL_MEAN else known | {"actions": {row.state: (row.action,)}}
+        misread = work.value(BELLMAN_OPTIMALITY_RESIDUAL, s=row.state, **alone)
+        reward = work.equate(letter, misread, ZERO)
+    else:
+        reward = work.equate(letter, worths[row.action], V[row.state])
     work.say(f"With ${letter} {equals(reward)}$ all residuals are $0$, and {_only(optimal=True)}: so $V = V^*$.")
     work.answer(reward)
     work.say(f"With ${letter} = {shown(given.reward)}$ only the residual of {row.state} changes:")

@@ -30,7 +30,7 @@ from rldrill.solutions.oracle import (
     tensors,
     without_loss,
 )
-from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, terminal_value
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states
 from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_V,
@@ -246,11 +246,24 @@ def _at_random(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any
     return evaluated(work, formula, mdp, {**known, "pi": knowns.policy(equiprobable(mdp))})
 
 
-_END_PAID = terminal_value(_optimal)
+@slip(
+    "terminal-value",
+    "A terminal state is worth 0: the reward for reaching it is already earned on the way there.",
+    when=lambda given: isinstance(given, Optimal) and knowns.pays_at_the_end(given.mdp),
+)
+def end_paid(given: Optimal, work: Work) -> None:
+    """The optimum where every end is worth what reaching it earns, so that an end is reached for more."""
+    mdp, gamma = given.mdp, Fraction(given.gamma)
+    ends = {row.next: Fraction(row.reward) for row in mdp.transitions if row.next in mdp.terminal}
+    rows = [row._replace(reward=Fraction(row.reward) + gamma * ends.get(row.next, 0)) for row in mdp.transitions]
+    paid = Model(transitions=tuple(rows), terminal=mdp.terminal)
+    _optimal(given.model_copy(update={"mdp": paid}), work, evaluated)
+
+
 MISCONCEPTIONS = (
     most_paid, first_actions, at_random, exceeds, value_kept.where_it_shows(), Q_FORGOT_GAMMA,
     replace(OPTIMAL_Q_BY_REWARD.where_it_shows(), when=lambda given: isinstance(given, Optimal)),
-    replace(_END_PAID, when=lambda given: isinstance(given, Optimal) and _END_PAID.applies(given)),
+    end_paid,
     replace(OWN_VALUE, when=lambda given: isinstance(given, Optimal)),
 )  # fmt: skip
 

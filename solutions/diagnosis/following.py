@@ -119,8 +119,8 @@ class _Follower:
         self.values: dict[int, Any] = {}
         self.reached = -1
         self.letters: dict[str, list[Any]] = {}
-        for letter, value in search.work.letters:
-            self.letters.setdefault(letter, []).append(value)
+        for found in search.work.letters:
+            self.letters.setdefault(found.letter, []).append(found.value)
         self.points = [dict(zip(self.letters, values, strict=True)) for values in product(*self.letters.values())]
         self.parameters = tuple({**dict.fromkeys(search.problem.parameters), **self.letters})
         self.expected = {
@@ -396,7 +396,7 @@ def _in_equations(work: Work) -> Iterator[Any]:
     for line in work.lines:
         if isinstance(line, Equality):
             yield from (line.left, *line.rights)
-    yield from (value for _, value in work.letters)
+    yield from (found.value for found in work.letters)
 
 
 def _groups(value: Any) -> Iterator[Sequence[Any]]:

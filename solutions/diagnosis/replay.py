@@ -14,6 +14,7 @@ from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, TooLong, leng
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import Quantity
+from rldrill.solutions.rational import RationalFunction
 from rldrill.solutions.solution import solver
 from rldrill.solutions.work import Step, Work
 
@@ -269,8 +270,9 @@ class Replay(Work):
 
 
 def _same(formula: Formula, known: Mapping[str, Any]) -> Any:
-    """What tells one application of a formula from another: its indices."""
-    return formula, tuple((name, value) for name, value in known.items() if isinstance(value, str | int))
+    """What tells one application of a formula from another: its indices, and its numbers, such as another discount."""
+    told = str | int | fmpq | RationalFunction
+    return formula, tuple((name, str(value)) for name, value in known.items() if isinstance(value, told))
 
 
 def _bounded(value: Any, longest: int = _LONGEST) -> Any:

@@ -16,6 +16,7 @@ from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
+from rldrill.solutions.rational import generator
 from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -77,10 +78,19 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     work.say(f"Sweep 1 in {joined(others)}:")
     first = start | {each: work.step(sweep, s=each, V=start, into=numbered(V, 1), **known) for each in others}
     target = exact(given.outcome[state])
-    value, _ = reached(work, ahead_of(1), Known("V_2", state, target, "V_1", row.state), first, chosen, **known)
+    averaging = work.misconception == MEAN_FOR_MAX  # then every action counts, and both equations are linear
+    if averaging:
+        unknown = generator("y")
+        value = work.equate("y", work.value(sweep, s=state, V=first | {row.state: unknown}, **known), target)
+    else:
+        value, _ = reached(work, ahead_of(1), Known("V_2", state, target, "V_1", row.state), first, chosen, **known)
     first[row.state] = work.answer(value)
-    certain = first[row.state] == value
-    reward, _ = rewarded(work, ahead_of(0), row, "V_1", first[row.state], start, demanding=certain, **known)
+    if averaging:
+        mean = work.value(sweep, s=row.state, V=start, **known)
+        reward = work.equate(str(row.reward), mean, first[row.state])
+    else:
+        certain = first[row.state] == value
+        reward, _ = rewarded(work, ahead_of(0), row, "V_1", first[row.state], start, demanding=certain, **known)
     known["R"] = {**known["R"], row[:3]: work.answer(reward)}
     work.say("Sweep 2:")
     second = first | {state: target}

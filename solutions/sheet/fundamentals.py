@@ -162,7 +162,7 @@ with evaluate(False):
         also=(r(t + 1) + gamma * r(t + 2) + gamma**2 * r(t + 3) + DOTS,),
         misread={
             FIRST_DISCOUNTED: SumOver(gamma ** (i + 1) * r(t + 1 + i), i, _ALL),
-            STARTS_EARLY: SumOver(gamma**i * r(t + i), i, _ALL),
+            STARTS_EARLY: SumOver(gamma**i * r(t + i), i, Counting(0, T - t, INFINITY)),
             UNDISCOUNTED: SumOver(r(t + 1 + i), i, _ALL),
             LINEAR_DISCOUNT: SumOver(gamma * i * r(t + 1 + i), i, _ALL),
             DISCOUNTED_FROM_START: SumOver(gamma ** (t + i) * r(t + 1 + i), i, _ALL),
@@ -220,6 +220,7 @@ with evaluate(False):
         misread={
             TAIL_FORGOTTEN: _FIRST,
             TAIL_UNDISCOUNTED: _FIRST + G(t + n),
+            FIRST_DISCOUNTED: gamma * _FIRST + gamma**n * G(t + n),
         },
     )
 

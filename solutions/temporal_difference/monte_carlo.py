@@ -42,14 +42,16 @@ def _finish(
         work.answer(_updated_pairs(given, work, returns, times, stale=stale))
 
 
-def _returns(given: Given, work: Work) -> tuple[Value, ...]:
-    """The returns, which are the first answer where they are asked for."""
+def _returns(given: Given, work: Work, *, early: bool = False) -> tuple[Value, ...]:
+    """The returns, which are the first answer where they are asked for; ``early`` ones begin one reward too early,
+    but for the first, before which nothing is earned: $r_t + γ R_t$ is $R_{t−1}$.
+    """
     rewards = knowns.trajectory(given.trajectory)["r"]
     end = len(rewards)
     G = {end: ZERO}
     for time in reversed(range(end)):
         G = G | {time: work.step(RETURN_RECURSIVE, t=time, G=G, r=rewards, gamma=exact(given.gamma))}
-    returns = tuple(G[time] for time in range(end))
+    returns = tuple(G[max(0, time - early)] for time in range(end))
     if not given.in_parts:
         return returns
     carried = work.answer(returns if end > 1 else returns[0])
@@ -129,9 +131,8 @@ def other_visits(given: Given, work: Work) -> None:
     when=lambda given: len(given.trajectory.rewards) > 1,
 )
 def reward_before(given: Given, work: Work) -> None:
-    """Every update with the return from one step earlier, of which the first has none: $r_t + γ R_t$ is $R_{t−1}$."""
-    first, *others = _returns(given, work)
-    _finish(given, work, (first, first, *others[:-1]))
+    """Every return from one step earlier, and the updates with them."""
+    _finish(given, work, _returns(given, work, early=True))
 
 
 @slip(

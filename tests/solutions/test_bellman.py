@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
-from asking import solved
+from asking import mistaken, solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.valued import with_reward
 from rldrill.solutions.drawing import draw
@@ -215,3 +215,17 @@ def test_tables_that_do_not_fit(changes: dict[str, Any], fragment: str) -> None:
     assert solved("value-from-action-values", **known) == {"a": {"a": 1}, "b": {"a": 2}}
     with pytest.raises(FileError, match=fragment):
         solved("value-from-action-values", **known | changes)
+
+
+@pytest.mark.parametrize(
+    ("name", "reward", "residual"),
+    [
+        ("forgot-gamma", 2, 2),  # x + 4 = 6; then the greater of 0 + 4 and 2 + 6, less 6
+        ("mean-for-max", 5, "-5/2"),  # (x + 2 + 2 + 3)/2 = 6; then (2 + 5)/2 − 6
+        ("sign-of-residual", 4, 1),  # x + 2 = 6; then 6 less the greater of 2 and 5
+    ],
+)
+def test_an_equation_that_is_misread_gives_another_reward_too(name: str, reward: int, residual: int | str) -> None:
+    rows = [["s", "go", "t", 1, "x"], ["s", "stay", "s", 1, 2], ["t", "quit", "end", 1, 4]]
+    given = {"mdp": {"transitions": rows, "terminal": ["end"]}, "gamma": "1/2", "values": {"s": 6, "t": 4}, "reward": 0}
+    assert mistaken(name, "bellman-residual", **given) == {"a": reward, "b": {"s": exact(Fraction(residual)), "t": 0}}

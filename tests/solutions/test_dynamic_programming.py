@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
-from asking import solved
+from asking import mistaken, solved
 from rldrill.problems.document import Table
 from rldrill.problems.errors import FileError
 from rldrill.problems.models import Model
@@ -344,3 +344,13 @@ def test_the_actions_of_a_table_stand_in_the_order_of_the_longest_row() -> None:
                 if isinstance(block, Table))  # fmt: skip
     assert table.header[1:] == ("left", "stay", "right")
     assert table.rows == (("a", "–", "$1$", "–"), ("b", "$3$", "$2$", "$1$"))
+
+
+def test_whoever_averages_over_the_actions_finds_other_values_and_another_reward() -> None:
+    # a: (2 + 1/2·y + 2)/2 = 5 gives y = V₁(b) = 12; b: (x + 1/2·V₀(a) + 4)/2 = (x + 2 + 4)/2 = 12 gives x = 18.
+    # V₁(a) = (2 + 1/2·2 + 2)/2 = 5/2, so V₂(b) = (18 + 1/2·5/2 + 4)/2 = 93/8.
+    rows = [["a", "go", "b", 1, 2], ["a", "quit", "end", 1, 2], ["b", "back", "a", 1, "x"], ["b", "quit", "end", 1, 4]]
+    mdp = {"transitions": rows, "terminal": ["end"]}
+    given = {"mdp": mdp, "gamma": "1/2", "start": {"a": 4, "b": 2}, "outcome": {"a": 5}}
+    answers = mistaken("mean-for-max", "value-iteration", **given)
+    assert (answers["a"], answers["b"], answers["c"]) == (12, 18, {"b": fmpq(93, 8)})

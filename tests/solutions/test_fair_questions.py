@@ -1,6 +1,7 @@
 """What an examiner holds against questions and workings, over many draws: one test for each kind."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from itertools import accumulate
 
 import pytest
 
@@ -98,3 +99,52 @@ def test_improvement_ends_in_the_policy_that_it_gives() -> None:
         best = solution.answers["b"]
         told = " and ".join(f"{actions[0]} in {state}" for state, actions in best.items())
         assert f"So $π_{{1}}$ is {told}." in notes(solution)
+
+
+def test_exchanging_the_tables_of_double_q_learning_shows_in_every_draw() -> None:
+    for level in (1, 2, 3):
+        for solution in drawn("double-q-learning", level):
+            assert "roles-exchanged" in {mistake.name for mistake, _ in solution.mistakes}
+
+
+def test_every_link_turns() -> None:
+    for level in (1, 2, 3):
+        for solution in drawn("jacobian", level):
+            assert all(accumulate(solution.problem.given.rates or ()))
+
+
+def _indexed(solution: Solution) -> list[object]:
+    constants = solution.problem.given.constants.items()
+    return [(name.partition("_")[0], value) for name, value in constants]
+
+
+def _steps(solution: Solution) -> list[object]:
+    given = solution.problem.given
+    found = [solution.answers["b"]] if given.after is not None else []
+    return [given.alpha, *([given.beta] if given.beta is not None else found)]
+
+
+def _costs(solution: Solution) -> list[object]:
+    given = solution.problem.given
+    return [given.Q[0], given.Q_T or "the same at all times"]
+
+
+#: The numbers of a problem of which none may be another one.
+DIFFERENT: dict[tuple[str, int], Callable[[Solution], Sequence[object]]] = {
+    ("lqr-gain", 1): lambda solution: [solution.problem.given.R[0][0], -solution.problem.given.P[0][0]],
+    ("lqr-backward", 3): _costs,
+    ("linearise", 2): _indexed,
+    ("linearise-affine", 2): _indexed,
+    ("q-learning", 3): lambda solution: [max(row.values()) for row in solution.problem.given.values.values()],
+    ("reinforce", 2): lambda solution: solution.answers["a"],
+    ("maml-step", 3): _steps,
+    ("actor-critic", 1): lambda solution: [solution.problem.given.beta, 1],
+    ("policy-action-value", 3): lambda solution: [*solution.answers["a"].values(), 0],
+}
+
+
+@pytest.mark.parametrize(("name", "level"), DIFFERENT)
+def test_numbers_whose_mix_up_would_not_show_are_not_the_same(name: str, level: int) -> None:
+    for solution in drawn(name, level):
+        numbers = [*map(str, DIFFERENT[name, level](solution))]
+        assert len(set(numbers)) == len(numbers)

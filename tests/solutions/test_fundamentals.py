@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
-from asking import solved
+from asking import mistaken, solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Parameter
 from rldrill.problems.parts import YesNo
@@ -136,3 +136,15 @@ def test_two_drawn_episodes_that_pay_the_same_do_so_at_a_discount_between_0_and_
 def test_a_return_that_repeats_is_said_to_hold_itself() -> None:
     working = " ".join(str(rldrill.draw("return-infinite", 2, 4).working("a")).split())
     assert "so R₄ = R₂, and this return is one round of rewards plus γⁿ times itself" in working
+
+
+def test_a_return_that_begins_a_reward_too_early_keeps_the_last_reward() -> None:
+    # R₁ = −1 + 7/2 + 4/4 − 4/8 = 3; from time 0 there is no reward before: 1/2·(−1) + 7/4 + 4/8 − 4/16 = 3/2.
+    answers = mistaken("starts-at-r-t", "return", rewards=[-1, 7, 4, -4], gamma="1/2", time=1)
+    assert answers == {"a": 3, "b": fmpq(3, 2)}
+
+
+def test_whoever_discounts_the_first_reward_does_so_in_both_returns() -> None:
+    # R₁ = 1/3·(−4)/(1 − 1/3) = −2 and R₀ = 1/3·7 + 1/3·(−2) = 5/3.
+    answers = mistaken("first-reward-discounted", "return-infinite", first=[7], repeated=[-4], gamma="1/3")
+    assert answers == {"a": -2, "b": fmpq(5, 3)}
