@@ -29,7 +29,7 @@ def with_numbers(part: Part, answer: Any, odd: Value) -> Any:
 @pytest.mark.parametrize("level", [2, 3])
 @pytest.mark.parametrize("name", families())
 def test_any_number_may_be_gone_on_from(name: str, level: int) -> None:
-    """Rightly or with a mistake: parts are answered as far as something follows; the diagnosis says so much at least."""
+    """Rightly or with a mistake, parts are answered as far as something follows; the diagnosis says no less."""
     exercise = rldrill.draw(name, level, 907)
     solution, labels = exercise.solution, list(exercise.solution.answers)
     wrong = Verdict(Outcome.WRONG, "Not right.")
