@@ -55,6 +55,8 @@ class Givens(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, defer_build=True)
     #: Letters that notations have, by which problems of this kind call something of their own.
     OWN: ClassVar[str] = ""
+    #: The field that gives what comes out, where what is left open is asked for and not in the answers.
+    FOUND_BY: ClassVar[str] = ""
 
     def __init__(self, **fields: Any) -> None:
         if not _TRUSTED.get():
@@ -76,7 +78,7 @@ class Givens(BaseModel):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters that an answer may contain: those left open, unless they are asked for."""
-        return self.left_open
+        return () if self.FOUND_BY and getattr(self, self.FOUND_BY) is not None else self.left_open
 
     @cached_property
     def left_open(self) -> tuple[str, ...]:

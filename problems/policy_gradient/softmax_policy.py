@@ -36,6 +36,8 @@ class Given(Givens):
     With ``odds`` one weight is the logarithm of x, and x is asked for.
     """
 
+    FOUND_BY = "odds"
+
     theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20, description="The weights.")
     features: OneStateFeatures = Field(min_length=2, description="The features of every action.")
     entropy: bool = Field(
@@ -58,10 +60,6 @@ class Given(Givens):
             if self.left_open != ("x",):
                 raise ValueError("theta: with odds one weight must be ln x")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """None where x is found, not left open."""
-        return () if self.odds else self.left_open
 
 
 def draw(level: int, rng: Draws) -> Given:
