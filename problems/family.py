@@ -5,12 +5,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache, cached_property
+from operator import not_
 from types import ModuleType, NoneType
 from typing import Any, ClassVar, Self, TypeVar, cast, get_args
 
 from msgspec import Struct
 from msgspec.structs import force_setattr, replace
-from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import to_jsonable_python
 
@@ -94,6 +95,11 @@ class Givens(BaseModel):
     def terminal_states(self) -> tuple[str, ...]:
         """The terminal states anywhere in the givens."""
         return tuple(dict.fromkeys(_ends(self)))
+
+
+def flag(description: str) -> Any:
+    """A field that says yes or no; it is left out of files where it says no."""
+    return Field(default=False, exclude_if=not_, description=description)
 
 
 class AskedFor(Givens):

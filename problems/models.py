@@ -28,7 +28,7 @@ from rldrill.problems.exact import (
     Scalar,
     shown,
 )
-from rldrill.problems.family import Givens
+from rldrill.problems.family import Givens, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 from rldrill.problems.model_forms import SCHEMAS, read_dynamics, read_form
@@ -430,11 +430,7 @@ class Lookahead(Givens):
     dynamics: Dynamics = Field(description="What the actions of the state do.")
     values: Named[Open] = Field(min_length=1, description="The values of the next states.")
     gamma: Discount
-    find: bool = Field(
-        default=False,
-        exclude_if=lambda find: not find,
-        description="Whether the one number that is left open is asked for.",
-    )
+    find: bool = flag("Whether the one number that is left open is asked for.")
 
     @model_validator(mode="after")
     def _values_fit(self) -> Self:
