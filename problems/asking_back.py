@@ -53,6 +53,8 @@ _Ending = Annotated[
 class AskingBack(ActionUpdates):
     """Updates with α and γ; or with one of them left open, and a value in the end from which it follows."""
 
+    FOUND_BY = "outcome"
+
     outcome: _Ending = None
 
     @model_validator(mode="after")
@@ -73,10 +75,6 @@ class AskingBack(ActionUpdates):
     def asks_back(self) -> bool:
         """Whether what is left open is asked for."""
         return self.outcome is not None
-
-    def parameters(self) -> tuple[str, ...]:
-        """The parameters that answers are expressions in: none, where what is left open is asked for."""
-        return () if self.outcome else self.left_open
 
     @property
     def asked_for(self) -> str:

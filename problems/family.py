@@ -5,12 +5,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache, cached_property
+from operator import not_
 from types import ModuleType, NoneType
 from typing import Any, ClassVar, Self, TypeVar, cast, get_args
 
 from msgspec import Struct
 from msgspec.structs import force_setattr, replace
-from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import to_jsonable_python
 
@@ -55,6 +56,8 @@ class Givens(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, defer_build=True)
     #: Letters that notations have, by which problems of this kind call something of their own.
     OWN: ClassVar[str] = ""
+    #: The field that gives what comes out, where what is left open is asked for and not in the answers.
+    FOUND_BY: ClassVar[str] = ""
 
     def __init__(self, **fields: Any) -> None:
         if not _TRUSTED.get():
@@ -76,7 +79,7 @@ class Givens(BaseModel):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters that an answer may contain: those left open, unless they are asked for."""
-        return self.left_open
+        return () if self.FOUND_BY and getattr(self, self.FOUND_BY) is not None else self.left_open
 
     @cached_property
     def left_open(self) -> tuple[str, ...]:
@@ -92,6 +95,11 @@ class Givens(BaseModel):
     def terminal_states(self) -> tuple[str, ...]:
         """The terminal states anywhere in the givens."""
         return tuple(dict.fromkeys(_ends(self)))
+
+
+def flag(description: str) -> Any:
+    """A field that says yes or no; it is left out of files where it says no."""
+    return Field(default=False, exclude_if=not_, description=description)
 
 
 class AskedFor(Givens):

@@ -28,7 +28,7 @@ from rldrill.problems.exact import (
     Scalar,
     shown,
 )
-from rldrill.problems.family import Givens
+from rldrill.problems.family import Givens, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 from rldrill.problems.model_forms import SCHEMAS, read_dynamics, read_form
@@ -119,6 +119,11 @@ class Dynamics(Givens):
             found[state].append(action)
         return {state: tuple(actions) for state, actions in found.items()}
 
+    @cached_property
+    def every_action(self) -> tuple[str, ...]:
+        """All actions that there are."""
+        return tuple(dict.fromkeys(action for _, action in self.outcomes))
+
     @property
     def chooses(self) -> bool:
         """Whether there are actions; without any it is a Markov reward process."""
@@ -145,6 +150,11 @@ class Model(Dynamics):
     story: str = Field(
         default="", max_length=400, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
     )
+
+    @cached_property
+    def every_state(self) -> tuple[str, ...]:
+        """All states, those in which an episode ends last."""
+        return (*self.states, *self.terminal)
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -256,7 +266,7 @@ def check_state_values(values: Mapping[str, object], model: Model) -> None:
     Raises:
         ValueError: one is missing, given for an unknown state, or not 0 for a terminal one.
     """
-    check_keys(values, (*model.states, *model.terminal), "the value", needed=model.states)
+    check_keys(values, model.every_state, "the value", needed=model.states)
     check_ends(values, model.terminal, "the value", "make it the reward for getting there")
 
 
@@ -430,11 +440,7 @@ class Lookahead(Givens):
     dynamics: Dynamics = Field(description="What the actions of the state do.")
     values: Named[Open] = Field(min_length=1, description="The values of the next states.")
     gamma: Discount
-    find: bool = Field(
-        default=False,
-        exclude_if=lambda find: not find,
-        description="Whether the one number that is left open is asked for.",
-    )
+    find: bool = flag("Whether the one number that is left open is asked for.")
 
     @model_validator(mode="after")
     def _values_fit(self) -> Self:
@@ -544,7 +550,7 @@ def model_blocks(model: Model) -> tuple[Block, ...]:
 def state_diagram(model: Model) -> StateDiagram:
     """The model as a picture, with the same data as its table."""
     return StateDiagram(
-        states=(*model.states, *model.terminal),
+        states=model.every_state,
         terminal=model.terminal,
         arrows=tuple(
             Arrow(t.state, t.action, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$")

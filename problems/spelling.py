@@ -70,6 +70,16 @@ class Source(Struct, frozen=True):
         first = start + len(stretch) - len(bare)
         return Source(bare, self.column(first), self.columns[first : first + len(bare) + 1])
 
+    def behind(self, beginning: re.Pattern[str]) -> "Source":
+        """What stands behind a beginning; all of it where it does not begin so."""
+        found = beginning.match(self.text)
+        return self.part(found.end(), len(self.text)) if found else self
+
+    def before(self, ending: re.Pattern[str]) -> "Source":
+        """What stands before an ending; all of it where there is none."""
+        found = ending.search(self.text)
+        return self.part(0, found.start()) if found else self
+
     def column(self, index: int) -> int:
         """Where a character of it was typed."""
         return self.columns[index] if self.columns else self.start + index

@@ -35,7 +35,7 @@ class Sweeps(Givens):
                 f"{_MOST_OUTCOMES // count} are possible here"
             )
         if self.start is not None:
-            check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
+            check_keys(self.start, self.mdp.every_state, "the starting value", self.mdp.states)
             check_ends(self.start, self.mdp.terminal, "start: the value", "make it the reward for getting there")
         return self
 

@@ -83,7 +83,7 @@ def policy(given: Policy) -> dict[tuple[str, str], Value]:
 
 def model_and_policy(mdp: Model, chances: Policy, gamma: Scalar) -> dict[str, Any]:
     """A model, a policy and the discount, as the Bellman equations need them."""
-    states = (*mdp.states, *mdp.terminal)
+    states = mdp.every_state
     return model(mdp) | {"pi": policy(chances), "gamma": exact(gamma), "states": states}
 
 

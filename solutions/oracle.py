@@ -36,12 +36,12 @@ def root(gap: Callable[[float], float]) -> float:
     return first / (first - last)
 
 
-def tensors(model: Dynamics, states: tuple[str, ...], left_open: float = float(OPEN)) -> tuple[Array, Array]:
+def tensors(model: Model, left_open: float = float(OPEN)) -> tuple[Array, Array]:
     """The model as arrays P and R of shape (states, actions, states).
 
     Actions that a state does not have are rows of zeros in P and −∞ in R.
     """
-    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    states, names = model.every_state, model.every_action
     P = np.zeros((len(states), len(names), len(states)))
     R = np.full(P.shape, -np.inf)
     for state, action in model.outcomes:
@@ -60,9 +60,9 @@ def lookahead(P: Array, R: Array, V: Array, gamma: float) -> Array:
     return worth
 
 
-def chances(policy: Policy, model: Dynamics, states: tuple[str, ...]) -> Array:
+def chances(policy: Policy, model: Model) -> Array:
     """The policy as an array of shape (states, actions)."""
-    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    states, names = model.every_state, model.every_action
     result = np.zeros((len(states), len(names)))
     for state, actions in policy.items():
         for action, chance in actions.items():
@@ -84,9 +84,8 @@ def policy_values(P: Array, R: Array, pi: Array, gamma: float) -> Array:
 
 def swept(given: ModelAndPolicy) -> tuple[Array, Array]:
     """The values of all states under the given policy, and the worth of all actions then."""
-    states = (*given.mdp.states, *given.mdp.terminal)
-    P, R = tensors(given.mdp, states)
-    V = policy_values(P, R, chances(given.chances, given.mdp, states), at(given.gamma))
+    P, R = tensors(given.mdp)
+    V = policy_values(P, R, chances(given.chances, given.mdp), at(given.gamma))
     return V, lookahead(P, R, V, at(given.gamma))
 
 
@@ -130,7 +129,7 @@ def _patient(P: Array, R: Array, states: int) -> Array:
 
 def best_actions(model: Dynamics, worth: Array) -> dict[str, set[str]]:
     """The best actions of every state, from an array of shape (states, actions)."""
-    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    names = model.every_action
     return {
         state: {names[j] for j in np.flatnonzero(np.isclose(row, row.max(), rtol=1e-12))}
         for state, row in zip(model.states, worth, strict=True)
@@ -139,9 +138,9 @@ def best_actions(model: Dynamics, worth: Array) -> dict[str, set[str]]:
 
 def without_loss(model: Model, best: Mapping[str, set[str]]) -> dict[str, set[str]]:
     """Of best actions, undiscounted, those that may be taken each time: all optimal values stay as they are."""
-    states, count = (*model.states, *model.terminal), len(model.states)
-    P, R = tensors(model, states)
-    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    states, count = model.every_state, len(model.states)
+    P, R = tensors(model)
+    names = model.every_action
     V = optimal_values(P, R, 1.0, count)
 
     def kept(state: str, action: str) -> bool:

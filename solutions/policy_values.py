@@ -101,7 +101,7 @@ def of_states(mdp: Model, values: Mapping[str, Value]) -> dict[str, Value]:
 
 
 def _begin(mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
-    return dict.fromkeys((*mdp.states, *mdp.terminal), ZERO) | known.get("V", {})
+    return dict.fromkeys(mdp.every_state, ZERO) | known.get("V", {})
 
 
 def _paid_again(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:

@@ -40,6 +40,8 @@ class Given(Givens):
     more of them.
     """
 
+    FOUND_BY = "outcome"
+
     belief: OpenDistributionField = Field(min_length=2, description="The probability of every state beforehand.")
     motion: MotionField = Field(description="For every action and state the probabilities of the next states.")
     actions: tuple[Name, ...] = Field(
@@ -70,10 +72,6 @@ class Given(Givens):
         if self.after > 1 and (self.outcome is None or self.after > len(self.actions)):
             raise ValueError(f"after: there is no outcome, or there are fewer than {self.after} actions before it")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, where the letter is found."""
-        return self.left_open if self.outcome is None else ()
 
 
 _OPEN = Parameter("q")

@@ -39,6 +39,8 @@ class Given(Givens):
     A probability may be left open; with ``outcome`` it is found from the belief after the first reading.
     """
 
+    FOUND_BY = "outcome"
+
     prior: OpenDistributionField = Field(min_length=2, description="The probability of every hypothesis beforehand.")
     likelihood: LikelihoodField = Field(description="For every reading its probability under every hypothesis.")
     measurements: tuple[Name, ...] = Field(
@@ -67,10 +69,6 @@ class Given(Givens):
         if self.outcome is None and any(map(left_open, self.likelihood.values())):
             raise ValueError("likelihood: a probability may be left open here only with an outcome to find it from")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, where the letter is found."""
-        return self.left_open if self.outcome is None else ()
 
     @property
     def prior_found(self) -> bool:

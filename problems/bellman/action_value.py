@@ -3,12 +3,12 @@
 from collections.abc import Set
 from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, shown
-from rldrill.problems.family import Question
+from rldrill.problems.family import Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Dynamics, Lookahead, Transition, draw_letter, outcomes_blocks, values_table
 from rldrill.problems.parts import Number, Part, Values
@@ -27,11 +27,7 @@ class Given(Lookahead):
     With ``find`` the number left open is asked for with which both actions are worth the same.
     """
 
-    chance: bool = Field(
-        default=False,
-        exclude_if=lambda chance: not chance,
-        description="Whether it is also asked how probable the policy makes the first of two actions.",
-    )
+    chance: bool = flag("Whether it is also asked how probable the policy makes the first of two actions.")
 
     @model_validator(mode="after")
     def _two_actions(self) -> Self:

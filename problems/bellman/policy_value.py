@@ -7,7 +7,7 @@ from pydantic import ConfigDict, Field, model_validator
 from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter
-from rldrill.problems.family import Question
+from rldrill.problems.family import Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     Model,
@@ -49,11 +49,7 @@ class Given(ModelAndPolicy):
 
     mdp: Process
     gamma: Discount = Field(description="The discount; left out where the average reward is asked for.")
-    average: bool = Field(
-        default=False,
-        exclude_if=lambda average: not average,
-        description="Whether the average reward per step is asked for, not values; then gamma is left out, or 1.",
-    )
+    average: bool = flag("Whether the average reward per step is asked for, not values; then gamma is left out, or 1.")
 
     @model_validator(mode="before")
     @classmethod

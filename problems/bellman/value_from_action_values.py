@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, Scalar, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import Givens, Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, Named, PolicyField, check_chances, check_keys, policy_table, values_table
 from rldrill.problems.names import once, read_name
@@ -32,11 +32,7 @@ class Given(Givens):
     known: Annotated[dict[Name, Exact], Field(min_length=1, max_length=1), once(read_name)] | None = Field(
         default=None, description="A state's value under the policy, by which to find it."
     )
-    equal: bool = Field(
-        default=False,
-        exclude_if=lambda equal: not equal,
-        description="Whether what is left open is to make the values of the two states equal.",
-    )
+    equal: bool = flag("Whether what is left open is to make the values of the two states equal.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -13,7 +13,7 @@ from rldrill.problems.angles import JointField, read_angle, text
 from rldrill.problems.document import Block, Equation, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import Givens, Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, tabular
@@ -53,11 +53,7 @@ class Given(Givens):
         description="The 4×4 transform of the base's frame to the world's; none if left out.",
         examples=[[[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]],
     )
-    frames: bool = Field(
-        default=False,
-        exclude_if=lambda frames: not frames,
-        description="Whether the pose of every link's frame is asked for, not of the last one alone.",
-    )
+    frames: bool = flag("Whether the pose of every link's frame is asked for, not of the last one alone.")
 
     asked: Literal["transforms", "pose", "point", "back"] = Field(
         default="transforms",

@@ -9,7 +9,7 @@ from rldrill.problems.arms import PlanarArm, draw_angles, situation
 from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
-from rldrill.problems.family import AskedFor, Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question, flag
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.parts import Number, Numbers, Part
 
@@ -39,11 +39,7 @@ class Given(AskedFor, PlanarArm):
         description="The pose of the base; the origin, if left out.",
         examples=[{"x": 1, "y": 2, "phi": "pi/6"}],
     )
-    frames: bool = Field(
-        default=False,
-        exclude_if=lambda frames: not frames,
-        description="Whether the pose of every link's end is asked for, not of the last one alone.",
-    )
+    frames: bool = flag("Whether the pose of every link's end is asked for, not of the last one alone.")
 
     x: Exact | None = Field(
         default=None, description="The x of the end point, from which a length that is left open as w is found."

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import Givens, Question, flag
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import in_open
@@ -41,11 +41,7 @@ class Given(Givens):
     alpha: StepSize = Field(description="The step size of the adaptation to a task.")
     beta: Exact | None = Field(default=None, description="The step size of the outer step, above 0.")
     after: Exact | None = Field(default=None, description="The shared parameter after the outer step; instead of beta.")
-    first_order: bool = Field(
-        default=False,
-        exclude_if=lambda asked: not asked,
-        description="Whether the outer step of first-order MAML is asked for, too.",
-    )
+    first_order: bool = flag("Whether the outer step of first-order MAML is asked for, too.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

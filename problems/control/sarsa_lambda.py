@@ -8,7 +8,7 @@ from rldrill.problems.asking_back import BackRun, Outcome, back_asked, draw_rows
 from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenShare, Parameter, shown
-from rldrill.problems.family import Question
+from rldrill.problems.family import Question, flag
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Named, check_keys
 from rldrill.problems.parts import Part, Values
@@ -36,11 +36,7 @@ class Given(BackRun):
         default=None, description="The traces before the run; all 0 without them."
     )
     replacing: Replacing = False
-    watkins: bool = Field(
-        default=False,
-        exclude_if=lambda watkins: not watkins,
-        description="Whether Watkins's Q(λ) learns instead of Sarsa(λ).",
-    )
+    watkins: bool = flag("Whether Watkins's Q(λ) learns instead of Sarsa(λ).")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import Givens, Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, Named, check_state_values, model_blocks, values_table
 from rldrill.problems.parts import Number, Part, Policy, Values
@@ -27,11 +27,7 @@ class Given(Givens):
     mdp: Model = Field(description="The Markov decision process.")
     values: Named[Exact] = Field(description="The optimal value of every state; it may be rounded.")
     gamma: Probability = Field(description="The discount.")
-    action_values: bool = Field(
-        default=False,
-        exclude_if=lambda action_values: not action_values,
-        description="Whether the values of all actions are asked for first.",
-    )
+    action_values: bool = flag("Whether the values of all actions are asked for first.")
     missing: Name | None = Field(default=None, description="A state whose value is left out, and asked for first.")
 
     @model_validator(mode="after")

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import Givens, Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Named, PolicyField, check_policy, check_state_values, model_blocks
 from rldrill.problems.parts import Part, Policy, Values, YesNo
@@ -37,11 +37,7 @@ class Given(Givens):
         default=None, description="The policy's values; without them they are asked for first."
     )
     gamma: Probability = Field(description="The discount.")
-    action_values: bool = Field(
-        default=False,
-        exclude_if=lambda action_values: not action_values,
-        description="Whether the values of all actions are asked for, too.",
-    )
+    action_values: bool = flag("Whether the values of all actions are asked for, too.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

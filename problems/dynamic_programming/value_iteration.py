@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, Probability, shown
-from rldrill.problems.family import AskedFor, Givens, Question
+from rldrill.problems.family import AskedFor, Givens, Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, Named, Transition, check_state_values, model_blocks, values_table
 from rldrill.problems.parts import Choice, Number, Part, Policy, Values
@@ -33,16 +33,8 @@ class Swept(AskedFor, Sweeps):
 
     gamma: Discount
     tie: Name | None = Field(default=None, description="A state whose two actions are to be greedy both; leave γ open.")
-    in_place: bool = Field(
-        default=False,
-        exclude_if=lambda in_place: not in_place,
-        description="Whether a sweep uses values as soon as they are new, state by state.",
-    )
-    action_values: bool = Field(
-        default=False,
-        exclude_if=lambda action_values: not action_values,
-        description="Whether the sweeps go over action values: then Q_k is asked for instead of V_k.",
-    )
+    in_place: bool = flag("Whether a sweep uses values as soon as they are new, state by state.")
+    action_values: bool = flag("Whether the sweeps go over action values: then Q_k is asked for instead of V_k.")
 
     @model_validator(mode="after")
     def _tied(self) -> Self:

@@ -26,6 +26,8 @@ REVISION = 4
 class Given(Givens):
     """The features of every state that was visited, the trajectories as their states, and the discount."""
 
+    FOUND_BY = "estimate"
+
     features: FeaturesField = Field(min_length=1, description="The features of every state.")
     trajectories: tuple[Annotated[tuple[Name, ...], Field(max_length=300)], ...] = Field(
         min_length=1, max_length=50, description="The trajectories, each as the list of its states."
@@ -54,10 +56,6 @@ class Given(Givens):
     def size(self) -> int:
         """How many features there are."""
         return len(next(iter(self.features.values())))
-
-    def parameters(self) -> tuple[str, ...]:
-        """The parameters that answers are expressions in: none where the discount is asked for."""
-        return () if self.estimate is not None else self.left_open
 
 
 def draw(level: int, rng: Draws) -> Given:

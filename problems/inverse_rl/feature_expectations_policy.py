@@ -27,6 +27,8 @@ REVISION = 6
 class Given(Givens):
     """Where actions lead, the policy, the features, the start distribution and the discount."""
 
+    FOUND_BY = "matched"
+
     motion: MotionField = Field(
         min_length=1, description="For every action and state the probabilities of the next states."
     )
@@ -64,10 +66,6 @@ class Given(Givens):
         check_keys(self.start, self.states, "the start probability", needed=())
         check_distribution(self.start, "start")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """The parameters that answers are expressions in: none, where what is left open is asked for."""
-        return () if self.matched is not None else self.left_open
 
     @property
     def asked_for(self) -> str:

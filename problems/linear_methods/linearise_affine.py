@@ -6,7 +6,7 @@ from typing import Any, Self
 from pydantic import Field, model_validator
 
 from rldrill.problems.draws import Draws
-from rldrill.problems.family import Question
+from rldrill.problems.family import Question, flag
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, slope, values_of
@@ -28,11 +28,7 @@ class Given(System):
         default=None, description="The entries of A_Δ and B_Δ that are asked for; the larger matrices, if left out."
     )
 
-    moved: bool = Field(
-        default=False,
-        exclude_if=lambda moved: not moved,
-        description="Whether it is asked, too, where the operating point goes in one step.",
-    )
+    moved: bool = flag("Whether it is asked, too, where the operating point goes in one step.")
 
     @model_validator(mode="after")
     def _steps(self) -> Self:

@@ -34,13 +34,11 @@ class Given(LinearQuadratic, Conventional):
     With ``action``, which is the first, the horizon is 1, and the price that R leaves open is found from it.
     """
 
+    FOUND_BY = "action"
+
     action: Exact | None = Field(
         default=None, description="The best first action, from which the price rho that R leaves open is found."
     )
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, where the price is found."""
-        return self.left_open if self.action is None else ()
 
     @model_validator(mode="after")
     def _one_step(self) -> Self:

@@ -37,6 +37,8 @@ class Given(Conventional):
     found from it.
     """
 
+    FOUND_BY = "action"
+
     A: MatrixField = Field(description="How the state moves by itself, n×n.")
     B: MatrixField = Field(description="How the action moves the state, n×m.")
     R: OpenMatrixField = Field(description="The cost of actions, m×m.")
@@ -53,10 +55,6 @@ class Given(Conventional):
         description="The best action in the start, from which the price rho that R leaves open is found.",
         examples=["-3/2"],
     )
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, where the price is found."""
-        return self.left_open if self.action is None else ()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

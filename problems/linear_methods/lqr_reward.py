@@ -29,6 +29,8 @@ class Given(LinearQuadratic):
     the sum of all rewards, the price of the action is left open in R and found from it.
     """
 
+    FOUND_BY = "total"
+
     L: MatricesField = Field(
         description="The gain of the actions a = −L s, the same at all times or one for each from 0 to the horizon."
     )
@@ -36,10 +38,6 @@ class Given(LinearQuadratic):
     total: Exact | None = Field(
         default=None, description="The sum of all rewards, from which the price rho that R leaves open is found."
     )
-
-    def parameters(self) -> tuple[str, ...]:
-        """What an answer may contain: nothing, where the price is found."""
-        return self.left_open if self.total is None else ()
 
     @model_validator(mode="after")
     def _gains_fit(self) -> Self:

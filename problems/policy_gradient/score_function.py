@@ -41,6 +41,8 @@ class Given(Givens):
     policy takes one of two actions with the probability p, and p is asked for.
     """
 
+    FOUND_BY = "component"
+
     features: OneStateFeatures = Field(min_length=2, description="The features of every action.")
     theta: tuple[WeightField, ...] | None = Field(
         default=None, max_length=MOST_ACTIONS, description="The weights; instead of policy."
@@ -73,10 +75,6 @@ class Given(Givens):
             raise ValueError("component: give its action, one of two with the probabilities p and 1-p")
         if component.number not in range(1, len(self.features[self.action]) + 1):
             raise ValueError(f"component: there is no weight of the number {component.number}")
-
-    def parameters(self) -> tuple[str, ...]:
-        """None where p is found, not left open."""
-        return () if self.component else self.left_open
 
     @property
     def asked(self) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Parameter, Weight, WeightField, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.family import Givens, Question, flag
 from rldrill.problems.features import FeatureVector, OneStateFeatures, check_features, features_table, weights
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.models import Name
@@ -36,11 +36,11 @@ class Given(Givens):
     With ``odds`` one weight is the logarithm of x, and x is asked for.
     """
 
+    FOUND_BY = "odds"
+
     theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20, description="The weights.")
     features: OneStateFeatures = Field(min_length=2, description="The features of every action.")
-    entropy: bool = Field(
-        default=False, exclude_if=lambda entropy: not entropy, description="Whether the policy's entropy is asked for."
-    )
+    entropy: bool = flag("Whether the policy's entropy is asked for.")
     odds: Odds | None = Field(
         default=None, description="How many times as often an action is taken as another, from which x is to be found."
     )
@@ -58,10 +58,6 @@ class Given(Givens):
             if self.left_open != ("x",):
                 raise ValueError("theta: with odds one weight must be ln x")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """None where x is found, not left open."""
-        return () if self.odds else self.left_open
 
 
 def draw(level: int, rng: Draws) -> Given:

@@ -22,8 +22,7 @@ _MIXED = re.compile(r"[0-9]+\s+[0-9]+\s*/\s*[0-9]+(?![0-9.])")
 
 def untransposed(source: Source) -> Source:
     """A bracket without the ``^T`` behind it; the source itself if there is none."""
-    mark = _TRANSPOSED.search(source.text)
-    return source.part(0, mark.start()) if mark else source
+    return source.before(_TRANSPOSED)
 
 
 def unscaled(source: Source) -> tuple[str, Source]:

@@ -38,5 +38,4 @@ def bare(source: Source) -> Source:
     text = source.text
     if len(text) > 1 and text[0] == text[-1] and text[0] in _QUOTES and text[0] not in text[1:-1]:
         source = source.part(1, len(text) - 1)
-    about = _ABOUT.match(source.text)
-    return source.part(about.end(), len(source.text)) if about else source
+    return source.behind(_ABOUT)

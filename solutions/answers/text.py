@@ -124,7 +124,10 @@ def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGES
     """
     if odds := _ODDS.fullmatch(text):
         text = f"({odds[1]})/({odds[3]})"
-    reading = plain(text) or _number(_whole(_unsaid(_without_reason(clean(text, longest)))), parameters, Arithmetic())
+    reading = plain(text)
+    if reading is None:
+        said = clean(text, longest).before(_BECAUSE).behind(_SAID_FIRST)
+        reading = _number(_whole(said), parameters, Arithmetic())
     plainly = re.sub(r"\s", "", in_signs(text)) if "\\" in text else text.strip()
     bars = _BARS.fullmatch(plainly.strip("$"))
     if bars and (parameters_of(reading.value) or sign(reading.value) < 0):
@@ -166,7 +169,7 @@ def read_vector(
     def vector(member: Source) -> tuple[Reading | None, ...]:
         return _vector(member, length, parameters, names, called)
 
-    body = _right_side(source)
+    body = source.behind(_LEFT_SIDE)
     if body.has("=≈") and len(_pieces(body, length, parameters, called)) == 1:
         return _forms(source, vector, _given)  # (1/4, 2) = (0.25, 2)
     return vector(source)
@@ -183,7 +186,7 @@ def _vector(
     labels = _labels(entries, called)
     alone = len(entries) == 1 and not (labels[0] and entry_named(labels[0][2], names, called) is not None)
     if alone or not all(labels[1:]):
-        source = _right_side(source)  # R = 1, 2
+        source = source.behind(_LEFT_SIDE)  # R = 1, 2
         entries = _pieces(source, length, parameters, called)
     entries = _unlabelled(entries, names, called)  # R_0 = 1, R_1 = 2
     most = max(_ENTRIES, length or 0)
@@ -382,7 +385,7 @@ def read_words(
         Unreadable: a state is unknown or repeated, or its action is not allowed.
     """
     source = clean(keyed_list(text, (*keys, *ends)), longest)
-    source = _without_reason(source) if len(keys) == 1 else source
+    source = source.before(_BECAUSE) if len(keys) == 1 else source
     asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
     shared = for_all(source, keys)
     common = shared is not None and all(_is_option(shared.text, options[key]) for key in keys)
@@ -429,7 +432,7 @@ def _line_words(line: Source, allowed: Collection[Sequence[str]]) -> list[Source
 
 def _last_form(source: Source) -> Source:
     """What stands behind the last equal sign, without its reason: the action in ``arg max {1; 2} = fast (2 > 1)``."""
-    source = _without_reason(source)
+    source = source.before(_BECAUSE)
     compared = _COMPARED.search(source.text)
     last = (source.part(0, compared.start()) if compared else source).split("=")[-1]
     if _RELATION.search(source.text[: last.start - source.start]):
@@ -450,7 +453,7 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     Raises:
         Unreadable: no option fits, or several do.
     """
-    source = _without_reason(clean(text))
+    source = clean(text).before(_BECAUSE)
     source = source.unwrapped("[") or source
     typed = _flattened(unquoted(source.text))
     spellings = [(_flattened(told), letter) for letter, told in options.items()]
@@ -533,17 +536,11 @@ def read_yes_no(text: str) -> bool:
         Unreadable: it is neither.
     """
     source = clean(text)
-    said, *why = _WHY.split(unquoted(_without_reason(source).text).casefold().rstrip(".!"), maxsplit=1)
+    said, *why = _WHY.split(unquoted(source.before(_BECAUSE).text).casefold().rstrip(".!"), maxsplit=1)
     reason = "".join(why)
     if said in _YES | _NO and not (_YES | _NO) & {reason.strip(" )"), *re.findall(r"\w{2,}", reason)}:
         return said in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
-
-
-def _without_reason(source: Source) -> Source:
-    """An answer without the words that say why."""
-    said = _BECAUSE.search(source.text)
-    return source.part(0, said.start()) if said else source
 
 
 def _whole(source: Source) -> Source:
@@ -552,18 +549,6 @@ def _whole(source: Source) -> Source:
         said = "A line that begins with a sign may be another number; write a sum on one line."
         raise source.unreadable(said, parted.end())
     return source
-
-
-def _unsaid(source: Source) -> Source:
-    """A number without the words before it."""
-    said = _SAID_FIRST.match(source.text)
-    return source.part(said.end(), len(source.text)) if said else source
-
-
-def _right_side(source: Source) -> Source:
-    """What is typed after ``x =`` or ``V(s) =``."""
-    left = _LEFT_SIDE.match(source.text)
-    return source.part(left.end(), len(source.text)) if left else source
 
 
 def _unnamed(source: Source) -> Source:
@@ -577,7 +562,7 @@ def _unlabelled(entries: list[Source], names: Sequence[str], called: Sequence[st
     """The entries without the ``R_0 =`` or ``R_0:`` before each; in the order of the names, if all are known."""
     labels = _labels(entries, called)
     values = [
-        entry.part(label.end(), len(entry.text)) if label else _right_side(entry)
+        entry.part(label.end(), len(entry.text)) if label else entry.behind(_LEFT_SIDE)
         for entry, label in zip(entries, labels, strict=True)
     ]
     found = [(label[2].strip(), entry_named(label[2], names, called)) for label in labels if label]

@@ -199,23 +199,23 @@ def oracle(given: Given) -> Answers:
 def _reward_tried(given: Sought) -> Answers:
     """The reward from two trials, for the action's worth is linear in it; one sweep on arrays with the number."""
     mdp, gamma = given.mdp, at(given.gamma)
-    states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
-    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    states, n = mdp.every_state, len(mdp.states)
+    names = mdp.every_action
     place = states.index(given.row.state), names.index(given.row.action)
     V = np.array([at(given.values.get(state, 0)) for state in states])
-    reward = root(lambda x: float(lookahead(*tensors(mdp, states, x), V, gamma)[place] - V[place[0]]))
-    return reward, lookahead(*tensors(mdp, states, at(given.reward)), V, gamma)[:n].max(axis=1) - V[:n]
+    reward = root(lambda x: float(lookahead(*tensors(mdp, x), V, gamma)[place] - V[place[0]]))
+    return reward, lookahead(*tensors(mdp, at(given.reward)), V, gamma)[:n].max(axis=1) - V[:n]
 
 
 def _claim_tried(given: Claimed) -> Answers:
     """The residuals, and the verdict."""
     mdp = given.mdp
-    states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
-    P, R = tensors(mdp, states)
+    states, n = mdp.every_state, len(mdp.states)
+    P, R = tensors(mdp)
     V = np.array([at(given.values.get(state, 0)) for state in states])
     if not given.optimal:
         true, _ = swept(given)
-        names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+        names = mdp.every_action
         worth = lookahead(P, R, V, at(given.gamma))
         after = np.array([
             sum(at(chance) * worth[i, names.index(action)] for action, chance in given.chances[state].items())

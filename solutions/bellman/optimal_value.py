@@ -276,14 +276,14 @@ def oracle(given: Given) -> Answers:
 def _tried(given: Sought) -> Answers:
     """Every policy with the reward that gives it the known value; the one that sweeps find to be optimal then."""
     mdp, gamma, known = given.mdp, at(given.gamma), at(given.optimum[given.state])
-    states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
+    states, n = mdp.every_state, len(mdp.states)
     place, other = states.index(given.state), states.index(given.row.state)
     for actions in product(*mdp.actions.values()):
-        pi = chances(deterministic(dict(zip(mdp.states, actions, strict=True))), mdp, states)
-        low, high = (policy_values(*tensors(mdp, states, x), pi, gamma)[place] for x in (0.0, 1.0))
+        pi = chances(deterministic(dict(zip(mdp.states, actions, strict=True))), mdp)
+        low, high = (policy_values(*tensors(mdp, x), pi, gamma)[place] for x in (0.0, 1.0))
         if abs(high - low) < 1e-9:
             continue  # the policy does not earn the reward
-        P, R = tensors(mdp, states, x := (known - low) / (high - low))
+        P, R = tensors(mdp, x := (known - low) / (high - low))
         V = optimal_values(P, R, gamma, n)
         if abs(V[place] - known) < 1e-6:
             return V[other], x, _threshold(given, P, R)
@@ -292,24 +292,24 @@ def _tried(given: Sought) -> Answers:
 
 def _threshold(given: Sought, P: Array, R: Array) -> float:
     """Where the action starts to be worth as much as the optimum without it, from two trials."""
-    mdp, gamma, states = given.mdp, at(given.gamma), (*given.mdp.states, *given.mdp.terminal)
-    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    mdp, gamma, states = given.mdp, at(given.gamma), given.mdp.every_state
+    names = mdp.every_action
     place = states.index(given.row.state), names.index(given.row.action)
     barred = R.copy()
     barred[place] = -np.inf
     V = optimal_values(P, barred, gamma, len(mdp.states))
-    return root(lambda x: float(lookahead(*tensors(mdp, states, x), V, gamma)[place] - V[place[0]]))
+    return root(lambda x: float(lookahead(*tensors(mdp, x), V, gamma)[place] - V[place[0]]))
 
 
 def _swept(given: Optimal) -> Answers:
     """All values by sweeps."""
     mdp = given.mdp
-    states = (*mdp.states, *mdp.terminal)
-    P, R = tensors(mdp, states)
+    states = mdp.every_state
+    P, R = tensors(mdp)
     n = len(mdp.states)
     V = optimal_values(P, R, at(given.gamma), n)
     Q = lookahead(P, R, V, at(given.gamma))
-    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    names = mdp.every_action
     best = best_actions(mdp, Q[:n])
     return (
         V[:n],

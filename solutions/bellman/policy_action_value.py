@@ -44,6 +44,6 @@ MISCONCEPTIONS = (
 def oracle(given: Given) -> Answers:
     """Sweeps of evaluation until nothing changes, on arrays; the worth of all actions comes with them."""
     V, Q = swept(given)
-    names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+    names = given.mdp.every_action
     states = given.mdp.states
     return (V[: len(states)], [Q[states.index(s), names.index(a)] for s, a in given.mdp.pairs])

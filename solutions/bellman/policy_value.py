@@ -75,8 +75,8 @@ def oracle(given: Given) -> Answers:
 
 def _mean_of_powers(given: Given) -> Answers:
     states = given.mdp.states
-    P, R = tensors(given.mdp, states)
-    pi = chances(given.chances, given.mdp, states)
+    P, R = tensors(given.mdp)
+    pi = chances(given.chances, given.mdp)
     power, mean = np.einsum("ij,ijk->ik", pi, P), np.eye(len(states))
     for _ in range(60):  # the mean of the first 2ⁿ powers, and the power that comes next
         mean = (mean + mean @ power) / 2

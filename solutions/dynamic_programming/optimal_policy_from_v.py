@@ -111,8 +111,8 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tup
 
 def oracle(given: Given) -> Answers:
     """Every action's mean reward and mean next value, as two arrays; what is missing by sweeps, the best by trying."""
-    states = (*given.mdp.states, *given.mdp.terminal)
-    P, R = tensors(given.mdp, states)
+    states = given.mdp.every_state
+    P, R = tensors(given.mdp)
     V = np.array([at(given.values.get(state, 0)) for state in states])
     pay = (P * R.clip(min=-1e300)).sum(axis=2)
     answers: list[Any] = []
@@ -123,7 +123,7 @@ def oracle(given: Given) -> Answers:
         answers.append(V[place])
     worth = pay + at(given.gamma) * P @ V
     if given.action_values:
-        names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+        names = given.mdp.every_action
         answers.append([worth[states.index(s), names.index(a)] for s, a in given.mdp.pairs])
     best = best_actions(given.mdp, worth[: len(given.mdp.states)])
     return [*answers, without_loss(given.mdp, best) if given.gamma == 1 else best]

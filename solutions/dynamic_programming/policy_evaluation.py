@@ -48,10 +48,10 @@ MISCONCEPTIONS = (
 
 def oracle(given: Given) -> Answers:
     """The policy's own chain of states as one matrix; a sweep in place goes through its lines one by one."""
-    states = (*given.mdp.states, *given.mdp.terminal)
+    states = given.mdp.every_state
     n = len(given.mdp.states)
-    P, R = tensors(given.mdp, states)
-    pi = chances(given.chances, given.mdp, states)
+    P, R = tensors(given.mdp)
+    pi = chances(given.chances, given.mdp)
     chain = np.einsum("ij,ijk->ik", pi, P)
     pay = np.einsum("ij,ijk,ijk->i", pi, P, np.where(np.isinf(R), 0.0, R))
     values = np.array([at((given.start or {}).get(state, 0)) for state in states])

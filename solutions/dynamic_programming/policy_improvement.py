@@ -77,14 +77,14 @@ MISCONCEPTIONS = (
 
 def oracle(given: Given) -> Answers:
     """Sweeps until nothing changes, then every action tried; optimal if no action beats the policy's values."""
-    states = (*given.mdp.states, *given.mdp.terminal)
+    states = given.mdp.every_state
     n = len(given.mdp.states)
-    P, R = tensors(given.mdp, states)
-    V = policy_values(P, R, chances(given.policy, given.mdp, states), at(given.gamma))
+    P, R = tensors(given.mdp)
+    V = policy_values(P, R, chances(given.policy, given.mdp), at(given.gamma))
     worth = lookahead(P, R, V, at(given.gamma))[:n]
     answers: list[Any] = [V[:n]] if given.values is None else []
     if given.action_values:
-        names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+        names = given.mdp.every_action
         answers.append([worth[states.index(s), names.index(a)] for s, a in given.mdp.pairs])
     best = optimal_values(P, R, 1.0, n)[:n] if given.gamma == 1 else worth.max(axis=1)
     answers += [best_actions(given.mdp, worth), bool((best < V[:n] + 1e-9).all())]

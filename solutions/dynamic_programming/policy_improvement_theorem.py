@@ -141,10 +141,9 @@ MISCONCEPTIONS = (
 
 def oracle(given: Given) -> Answers:
     """Both policies as one-hot rows: the second picks from the lookahead on the first one's values."""
-    states = (*given.mdp.states, *given.mdp.terminal)
     n = len(given.mdp.states)
-    P, R = tensors(given.mdp, states)
-    first, second = (chances(deterministic(pi), given.mdp, states) for pi in (given.policy, given.other))
+    P, R = tensors(given.mdp)
+    first, second = (chances(deterministic(pi), given.mdp) for pi in (given.policy, given.other))
     V = policy_values(P, R, first, at(given.gamma))
     worth = lookahead(P, R, V, at(given.gamma))[:n][second[:n] > 0]
     answers: list[Any] = [V[:n]] if given.values is None else []

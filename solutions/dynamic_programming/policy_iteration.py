@@ -179,29 +179,28 @@ def oracle(given: Given) -> Answers:
 def _threshold_tried(given: Threshold) -> Answers:
     """The reward at which another action starts to pay, from two trials; all values with it, and with the number."""
     mdp, gamma = given.mdp, at(given.gamma)
-    states = (*mdp.states, *mdp.terminal)
-    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    states = mdp.every_state
+    names = mdp.every_action
     place, n = (states.index(given.row.state), names.index(given.row.action)), len(mdp.states)
-    first = chances(deterministic(given.start), mdp, states)
+    first = chances(deterministic(given.start), mdp)
 
     def tried(x: float) -> tuple[Array, float]:
-        P, R = tensors(mdp, states, x)
+        P, R = tensors(mdp, x)
         V = values_of(P, R, first, gamma)
         return V, float(lookahead(P, R, V, gamma)[place] - V[place[0]])
 
-    P, R = tensors(mdp, states, at(given.reward))
-    after = values_of(P, R, chances(deterministic(given.improved), mdp, states), gamma)
+    P, R = tensors(mdp, at(given.reward))
+    after = values_of(P, R, chances(deterministic(given.improved), mdp), gamma)
     return tried(0.0)[0][:n], root(lambda x: tried(x)[1]), after[:n]
 
 
 def _rounds_tried(given: Rounds) -> Answers:
     """The rounds one after the other."""
-    states = (*given.mdp.states, *given.mdp.terminal)
     n = len(given.mdp.states)
-    P, R = tensors(given.mdp, states)
+    P, R = tensors(given.mdp)
     policy, answers, stable = dict(given.start), [], False
     for _ in range(given.rounds):
-        V = values_of(P, R, chances(deterministic(policy), given.mdp, states), at(given.gamma))
+        V = values_of(P, R, chances(deterministic(policy), given.mdp), at(given.gamma))
         best = best_actions(given.mdp, lookahead(P, R, V, at(given.gamma))[:n])
         best = {state: {policy[state]} & actions or actions for state, actions in best.items()}
         answers += [np.array(V[:n]), best]

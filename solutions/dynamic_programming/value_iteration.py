@@ -202,11 +202,11 @@ def oracle(given: Given) -> Answers:
 def _halved(given: Sought) -> Answers:
     """The reward by halving: what two sweeps give does not fall where it rises."""
     mdp, gamma = given.mdp, at(given.gamma)
-    states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
+    states, n = mdp.every_state, len(mdp.states)
     place = states.index(given.state)
 
     def swept(x: float) -> tuple[Array, Array, Array]:
-        P, R = tensors(mdp, states, x)
+        P, R = tensors(mdp, x)
         sweeps = [np.array([at(given.start.get(state, 0)) for state in states])]
         for _ in range(2):
             sweeps.append(np.r_[lookahead(P, R, sweeps[-1], gamma)[:n].max(axis=1), sweeps[0][n:]])
@@ -222,8 +222,8 @@ def _halved(given: Sought) -> Answers:
 
 def _in_floats(given: Swept) -> Answers:
     """The sweeps, and the greedy actions or the discount of a tie."""
-    states = (*given.mdp.states, *given.mdp.terminal)
-    P, R = tensors(given.mdp, states)
+    states = given.mdp.every_state
+    P, R = tensors(given.mdp)
     V = np.array([at((given.start or {}).get(state, 0)) for state in states])
     n = len(given.mdp.states)
     V[n:] = 0
@@ -233,7 +233,7 @@ def _in_floats(given: Swept) -> Answers:
             source = lookahead(P, R, V, at(given.gamma)) if given.in_place else worth
             V[line] = source[line].max()
     if given.action_values:
-        names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+        names = given.mdp.every_action
         values = [worth[states.index(state), names.index(action)] for state, action in given.mdp.pairs]
         return (values, best_actions(given.mdp, worth))
     if given.tie:

@@ -85,9 +85,9 @@ def oracle(given: Given) -> Answers:
     """Backwards instead: the values of all states by as many sweeps as there are states, then the mean over starts."""
     if given.known is not None:
         return (tried(given, lambda trial: oracle(trial)[0]),)
-    states = (*given.mdp.states, *given.mdp.terminal)
-    P, R = tensors(given.mdp, states)
-    pi = chances(given.chances, given.mdp, states)
+    states = given.mdp.every_state
+    P, R = tensors(given.mdp)
+    pi = chances(given.chances, given.mdp)
     V = np.zeros(len(states))
     for _ in states:
         worth = lookahead(P, R, V, at(given.gamma))

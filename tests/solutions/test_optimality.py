@@ -32,7 +32,7 @@ def random_model(states: int, actions: int, seed: int) -> dict[str, Any]:
 def test_sixty_states_against_value_iteration_in_floating_point(gamma: str) -> None:
     model = Model.model_validate(random_model(60, 4, seed=3))
     exact = optimum(model, Fraction(gamma))
-    P, R = tensors(model, (*model.states, "end"))
+    P, R = tensors(model)
     V = optimal_values(P, R, float(Fraction(gamma)), len(model.states))
     values = [exact.values[state] for state in model.states]
     np.testing.assert_allclose([float(int(v.p) / int(v.q)) for v in values], V[:-1], rtol=1e-9, atol=1e-9)

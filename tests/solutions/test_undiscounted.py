@@ -114,7 +114,7 @@ def holds_against_brute_force(rows: Rows) -> str:
     optimal = [policy for policy, worth in totals.items() if worth is not None and worth == pytest.approx(best)]
     for place, state in enumerate(model.states):
         assert set(found.best[state]) == {policy[place] for policy in optimal}
-    P, R = tensors(model, (*model.states, *model.terminal))
+    P, R = tensors(model)
     V = optimal_values(P, R, 1.0, len(model.states))
     assert dict(zip(model.states, V, strict=False)) == {s: pytest.approx(value, abs=1e-6) for s, value in best.items()}
     return "loops" if any(policy_goes_round(model, policy) for policy in policies(model)) else "values"
@@ -150,9 +150,8 @@ def test_any_policy_is_worth_its_total(seed: int, data: st.DataObject) -> None:
         return
     answers = solved("policy-value", mdp=mdp, policy=policy, gamma=1)["a"]
     assert {s: pytest.approx(int(v.p) / int(v.q)) for s, v in answers.items()} == worth
-    states = (*model.states, *model.terminal)
-    P, R = tensors(model, states)
-    V = policy_values(P, R, chances({s: {a: Fraction(1)} for s, a in policy.items()}, model, states), 1.0)
+    P, R = tensors(model)
+    V = policy_values(P, R, chances({s: {a: Fraction(1)} for s, a in policy.items()}, model), 1.0)
     assert dict(zip(model.states, V, strict=False)) == {s: pytest.approx(value, abs=1e-9) for s, value in worth.items()}
 
 

@@ -58,8 +58,7 @@ def test_the_taxi() -> None:
         given["gymnasium"] = "Taxi-v3"
         model = Model.model_validate(given)
     values = optimal(gamma="9/10", mdp=given)
-    states = (*model.states, *model.terminal)
-    P, R = tensors(model, states)
+    P, R = tensors(model)
     swept = optimal_values(P, R, 0.9, len(model.states))[: len(model.states)]
     exact = [int(value.numerator) / int(value.denominator) for value in values.values()]
     assert np.allclose(exact, swept, atol=1e-9)
