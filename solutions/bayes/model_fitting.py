@@ -98,8 +98,12 @@ def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
     known["mu_hat"] = work.answer(work.step(GAUSSIAN_MEAN, **known))
     prior = sample.prior
     if prior is None or prior.estimate is None:
-        work.answer(work.step(GAUSSIAN_VARIANCE, **known))
-        work.answer(work.step(SAMPLE_VARIANCE, **known))
+        variance = work.step(GAUSSIAN_VARIANCE, **known)
+        found = work.answer(variance)
+        unbiased = work.step(SAMPLE_VARIANCE, **known)
+        work.answer(
+            unbiased if variance in (found, 0) else unbiased * found / variance
+        )  # from one's own sum of squares
     if prior is None:
         return
     _most_probable(
@@ -126,7 +130,9 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
     known["average"] = {axis: work.step(formula, **known) for axis, formula in (("x", MEAN_OF_X), ("y", MEAN_OF_Y))}
     known |= {"S_xy": work.step(PRODUCTS, **known), "S_xx": work.step(SQUARES, **known)}
     known["slope"] = work.step(LINE_SLOPE, **known)
-    work.answer((known["slope"], work.step(LINE_INTERCEPT, **known)))
+    found, _ = work.answer((known["slope"], work.step(LINE_INTERCEPT, **known)))
+    if found != known["slope"]:  # from one's own sum of products
+        known |= {"slope": found, "S_xy": found * known["S_xx"]}
     prior = line.prior
     if prior is None:
         return
