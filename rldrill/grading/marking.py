@@ -274,7 +274,8 @@ class Judging:
         mistake = "" if verdict.accepted or diagnosis is None else by_name(diagnosis.sentence, part.kind)
         score = Score(part.points * self._credit(part, verdict), part.points)
         outcome = verdict.outcome.value
-        return Judged(verdict.read, outcome, verdict.accepted, reason, score, self._key(part), diagnosis, mistake)
+        read = by_name(verdict.read, part.kind)
+        return Judged(read, outcome, verdict.accepted, reason, score, self._key(part), diagnosis, mistake)
 
     def _diagnosed(self, label: str, text: str, verdict: Verdict, before: Mapping[str, Verdict]) -> Diagnosis:
         """What an answer comes from; with the step as it was taken and as it should be where keys are told, too."""

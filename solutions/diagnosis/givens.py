@@ -124,13 +124,18 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
     keys = list(value)[:_MOST]
     if (turned := _turned_table(value)) != value:
         yield "rows-and-columns", turned, name
+    of_shares = all(_number(number) and 0 <= number <= 1 for number in value.values())
     for key in keys:
         if _number(value[key]) and value[key] < 0:
             yield "minus-lost", {**value, key: -value[key]}, f"{name} {_named(key)}"
+        if of_shares and 0 < value[key] < 1:
+            yield "complement", {**value, key: 1 - value[key]}, f"{name} of {_named(key)}"
     for one, two in list(combinations(keys, 2))[:_MOST]:
         if value[one] != value[two]:
             what = f"{name} of {_named(one)} and {_named(two)}"
             yield "rows-exchanged", {**value, one: value[two], two: value[one]}, what
+    if len(keys) == 2 and all(isinstance(row, dict) for row in value.values()):
+        yield from _of_columns(value, name)
     for key in keys:
         if isinstance(value[key], BaseModel | dict):
             where = f"{'of' if isinstance(value[key], BaseModel) else 'at'} {_named(key)}"
@@ -177,6 +182,15 @@ def _turned(value: Any) -> Any:
     if all(len(row) == len(value) and all(map(_number, row)) for row in value):
         return tuple(zip(*value, strict=True))
     return tuple(map(_turned, value))
+
+
+def _of_columns(value: dict[Any, Any], name: str) -> Changed:
+    """Of two rows the numbers of one column exchanged: in it the other row is read."""
+    (one, above), (two, below) = value.items()
+    for column in above if above.keys() == below.keys() else ():
+        if _number(above[column]) and _number(below[column]) and above[column] != below[column]:
+            rows = {one: {**above, column: below[column]}, two: {**below, column: above[column]}}
+            yield "rows-exchanged", rows, f"{name} of {_named(one)} and {_named(two)} at {_named(column)}"
 
 
 def _turned_table(value: dict[Any, Any]) -> dict[Any, Any]:

@@ -116,6 +116,11 @@ def _stacked(given: Given, features: Sequence[Value], places: range) -> tuple[Va
     return tuple(standing.get(place, ZERO) for place in range(len(given.theta)))
 
 
+def _interleaved(given: Given, action: str) -> range:
+    """The places of the weights of an action, where they stand feature by feature."""
+    return range(given.actions.index(action), len(given.theta), len(given.actions))
+
+
 @slip(
     "block-of-the-wrong-action",
     "Every action has its own block of weights, in the order in which the actions are named; another one was used.",
@@ -134,10 +139,25 @@ def wrong_block(given: Given, work: Work) -> None:
 )
 def interleaved(given: Given, work: Work) -> None:
     """For the first feature a weight of every action, then for the second, and so on."""
-    solve(given, work, lambda given, a: range(given.actions.index(a), len(given.theta), len(given.actions)))
+    solve(given, work, _interleaved)
 
 
-MISCONCEPTIONS = (wrong_block, interleaved)
+@slip(
+    "weights-interleaved-beside-the-open-one",
+    "The first block holds all weights of the first action; the weights were read feature by feature instead.",
+    when=lambda given: given.size > 1 and given.raised is not None and _keeps_the_open_weight(given),
+)
+def interleaved_too(given: Given, work: Work) -> None:
+    """The same where a weight is open, and is one of the same action either way."""
+    solve(given, work, _interleaved)
+
+
+def _keeps_the_open_weight(given: Given) -> bool:
+    place = next(place for place, weight in enumerate(given.theta) if isinstance(weight, Parameter))
+    return place // given.size == place % len(given.actions)
+
+
+MISCONCEPTIONS = (wrong_block, interleaved, interleaved_too.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

@@ -233,6 +233,16 @@ def test_a_table_is_read_by_columns_and_two_numbers_of_a_row_are_exchanged() -> 
     assert not [each for each in misread(wide) if each.kind == "rows-and-columns"]
 
 
+def test_a_share_in_a_table_is_taken_for_its_complement_or_read_in_the_other_row() -> None:
+    given = Tables(ways={"on": {"u": "1/2", "v": "1/4"}, "off": {"u": "1/3", "v": 1}})
+    found = {(each.kind, each.what): each.given for each in misread(given)}
+    turned = Tables(ways={"on": {"u": "1/2", "v": "3/4"}, "off": {"u": "1/3", "v": 1}})
+    assert found["complement", "ways of v at on"] == turned
+    other = Tables(ways={"on": {"u": "1/2", "v": 1}, "off": {"u": "1/3", "v": "1/4"}})
+    assert found["rows-exchanged", "ways of on and off at v"] == other
+    assert not [what for kind, what in found if kind == "complement" and what.endswith("v at off")]
+
+
 class List(BaseModel):
     numbers: tuple[int, ...]
 

@@ -83,6 +83,7 @@ def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, ma
     report = graded(tmp_path, rows, Assignment(tmp_path / "exam.json"))
     assert student(report, "Ann").score.points == points
     assert student(report, "Ben").score.points == 3
+    assert student(report, "Ben").parts[0].judged.read.startswith("δ₀: ")
 
 
 def test_a_part_that_shall_not_count_decides_nothing(tmp_path: Path) -> None:

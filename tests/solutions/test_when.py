@@ -23,6 +23,7 @@ OTHER_QUESTION = {
     "normalised-without-exp": "the given odds contradict; with a letter it would take too long to judge",
     "block-of-the-wrong-action": "w's own block is told; of two actions the other one tells nothing",
     "weights-interleaved": "w's own block is told",
+    "weights-interleaved-beside-the-open-one": "where no weight is open it is the one above",
     "width-forgotten": "b is asked or used before",
     "outer-step-from-adapted": "each of several tasks has an adapted parameter of its own",
     "absolute-rates": "of more than two links it is not worked out",
