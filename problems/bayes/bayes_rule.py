@@ -30,7 +30,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Bayes' rule"
 SOURCE = "Thrun, Burgard & Fox 2005, sections 2.2 and 2.4"
-REVISION = 5
+REVISION = 4
 
 
 class Given(Givens):
@@ -127,11 +127,7 @@ def draw(level: int, rng: Draws) -> Given:
         rest = {name: _REST if isinstance(chance, Parameter) else 1 - chance for name, chance in likely.items()}
         likelihood = dict(zip(story.readings, (likely, rest), strict=True))
         several = kind != "open" and (level == 3 or count == 2 or rng.chance(Fraction(1, 2)))
-        count_read = 2 if level > 1 and several else 1
-        if level == 2:  # the same reading again is the same calculation again
-            readings = rng.shuffled(story.readings)[:count_read]
-        else:
-            readings = tuple(rng.choice(story.readings) for _ in range(count_read))
+        readings = tuple(rng.choice(story.readings) for _ in range(2 if level > 1 and several else 1))
         beliefs = [{name: filled(chance, q) for name, chance in zip(hypotheses, prior, strict=True)}]
         for reading in readings:
             beliefs.append(updated(beliefs[-1], likelihood[reading], q))

@@ -123,11 +123,6 @@ def test_the_best_way_at_once_is_one_way() -> None:
             assert all(row.count(max(row)) == 1 for row in rewards.values())
 
 
-def test_a_second_measurement_is_another_calculation() -> None:
-    for solution in drawn("bayes-rule", 2):
-        assert len(set(solution.problem.given.measurements)) == len(solution.problem.given.measurements)
-
-
 def _indexed(solution: Solution) -> list[object]:
     constants = solution.problem.given.constants.items()
     return [(name.partition("_")[0], value) for name, value in constants]
