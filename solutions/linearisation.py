@@ -1,6 +1,7 @@
 """Linearising the dynamics of a problem: derivatives in letters, then exact values at the operating point."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from sympy import Expr
@@ -209,10 +210,25 @@ def rates(work: Work, given: System) -> AnyMatrix:
 def _jacobian(work: Work, given: System, formula: Formula, known: dict[str, Value], rule: Rule) -> AnyMatrix:
     """The derivatives of the dynamics by the state or by the action; those that are zero are not written down."""
     by = given.states if formula is STATE_JACOBIAN else tuple(given.action)
+    if to_know := [*_to_know(given, by)]:
+        work.say(f"The derivative of {', that of '.join(to_know)}.")
     columns = [_column(work, given, formula, name, known, rule) for name in by]
     if any(entry is None for column in columns for entry in column):
         work.say("The other derivatives are zero.")
     return matrices.matrix(zip(*(map(written_or_zero, column) for column in columns), strict=True))
+
+
+#: The derivatives that are not seen at a glance: a function, how it is written, and its derivative.
+_TO_KNOW = (("sqrt", "√({})", "1/(2√({}))"), ("tan", "tan({})", "1/cos^2({})"))
+
+
+def _to_know(given: System, by: Sequence[str]) -> Iterator[str]:
+    """The functions of these letters whose derivatives are not seen at a glance, with their derivatives."""
+    rates = " ".join(given.dynamics.values())
+    for function, worth, derivative in _TO_KNOW:
+        for name in dict.fromkeys(re.findall(rf"{function}\((\w+)\)", rates)):
+            if name in by:
+                yield f"${worth.format(name)}$ is ${derivative.format(name)}$"
 
 
 def written_or_zero(derivative: Value | None) -> Value:

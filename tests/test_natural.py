@@ -48,7 +48,7 @@ def test_roots_and_matrices_of_other_libraries_are_answers() -> None:
 
 
 def test_a_graded_submission_is_gone_through_part_by_part() -> None:
-    graded = rldrill.load("return/1/430").grade({"a": "2", "b": "1"})
+    graded = rldrill.load("return/1/2166").grade({"a": "2", "b": "1"})
     assert [part.part for part in graded] == ["a", "b"]
     assert len(graded) == 2
     assert "a" in graded

@@ -718,13 +718,13 @@ def test_the_examples_say_what_their_comments_say() -> None:
         (row.problem.split("@")[0], row.part, row.judged.verdict) for row in rows(verify([EXAMPLES / "answers.toml"]))
     ] == [
         ("td-zero/1/62590", "a", "right"),
-        ("return/1/430", "a", "misconception"),
-        ("return/1/430", "b", "follow-through"),
+        ("return/1/2166", "a", "misconception"),
+        ("return/1/2166", "b", "follow-through"),
         ("n-step-return/2/269", "a", "unreadable"),
         ("n-step-return/2/269", "b", "right"),
         ("bayes-rule/1/43", "a", "right"),
-        ("return/2/5940", "a", "wrong"),
-        ("return/2/5940", "b", "right"),
+        ("return/2/4333", "a", "wrong"),
+        ("return/2/4333", "b", "right"),
     ]
     verdicts = [row.judged.verdict for row in rows(verify([EXAMPLES / "answers.csv"]))]
     assert verdicts == ["right"] * 3 + ["unreadable", "wrong", "missing", "right"]

@@ -215,7 +215,7 @@ def question(given: Given) -> Question:
     else:
         odds = Part("What is the posterior probability $p(M|D_z)$ of every model?", Values("p(·|D_z)", names))
     most = "more" if len(names) == 2 else "most"
-    return Question(blocks, (evidences, odds, Part(f"Is “{first}” now the {most} probable model?", YesNo())))
+    return Question(blocks, (evidences, odds, Part(f"Given $D_z$, is “{first}” the {most} probable model?", YesNo())))
 
 
 def _says(model: CoinModel) -> str:

@@ -19,7 +19,7 @@ from rldrill.problems.settings import maps
 
 TITLE = "Principle of optimality"
 SOURCE = "Bertsekas 2017, sections 1.3 and 2.1"
-REVISION = 3
+REVISION = 4
 
 
 class Edge(NamedTuple):
@@ -142,8 +142,12 @@ def draw(level: int, rng: Draws) -> Given:
     best = dict(pairwise(path))
     for here, after in rng.shuffled(ways):
         best.setdefault(here, after)
+    paid = [*_paid(rng, ways, path, best)]
+    most = [max(reward for state, _, reward in paid if state == here) for here in range(count)]
+    if any([reward for state, _, reward in paid if state == here].count(most[here]) > 1 for here in range(count)):
+        return draw(level, rng)  # which way earns most at once would be open
     return Given(
-        edges=tuple(Edge(names[here], names[after], reward) for here, after, reward in _paid(rng, ways, path, best)),
+        edges=tuple(Edge(names[here], names[after], reward) for here, after, reward in paid),
         start=names[0],
         goal=place.terminal,
         through=names[left_out] if level == 3 else None,

@@ -110,7 +110,8 @@ def question(given: Given) -> Question:
     for angle, end, entries in which:
         parts += [
             Part(
-                f"What is the angle {angle} relative to the $x$ axis, in radians, no full turn added or taken off?",
+                f"What is the angle {angle} relative to the $x$ axis, in radians, with no full turns added or "
+                "subtracted?",
                 Number(),
                 zero=True,
             ),

@@ -67,6 +67,10 @@ def draw(level: int, rng: Draws) -> Given:
     count, first_order = (1, False) if level == 1 else rng.choice(((2, False), (2, True), (1, True), (3, False)))
     theta, tasks, alpha = _drawn_halved(rng) if level == 1 else _drawn(rng, count)
     beta = Fraction(1, 4) if alpha == Fraction(1, 2) else Fraction(1, 2)
+    adapted = [theta - alpha * curve * (theta - optimum) for curve, optimum in tasks]
+    outer = sum(curve * (own - optimum) for own, (curve, optimum) in zip(adapted, tasks, strict=True))
+    if first_order and theta - beta * outer in adapted:
+        return draw(level, rng)
     return Given(theta=theta, tasks=tasks, alpha=alpha, beta=beta, first_order=first_order)
 
 

@@ -74,6 +74,7 @@ def _filter(
         if unweighed:
             belief = _moved(work, event, before, now)
     if given.ahead is not None:
+        work.say("In the next step $p$ is the belief that was found.")
         _told(work, given.ahead)
         belief = start if afresh else belief
         if _moved in moves:

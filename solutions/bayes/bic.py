@@ -164,7 +164,7 @@ def _border(given: Given, work: Work, better: int) -> None:
         fit[name] = _logarithm(given, name, work)
         known = {"M": name, "log_likelihood": fit[name], "free": exact(model.k)}
         work.lines.append(Step(BIC, BIC.right, known, None, "="))
-    work.say(f"It is the same for {rich}, on the left, and {simple}, on the right, if")
+    work.say(f"It is the same for both, {rich} on the left and {simple} on the right, if")
     sides = [
         sympy.Add(
             to_sympy(tidy(-2 * to_sympy(fit[name]))),

@@ -48,7 +48,7 @@ def _of_claim(given: Claimed, work: Work) -> None:
         return
     wrong = [state for state, residual in residuals.items() if not is_zero(residual)]
     if wrong:
-        work.say(f"The equation does not hold in {joined(wrong)}, where $δ ≠ 0$, so $V$ is another function.")
+        work.say(f"The equation does not hold in {joined(wrong)}, where $δ ≠ 0$, so $V$ is not the value function.")
     elif given.gamma != 1:
         work.say(f"All residuals are $0$, and {_only(optimal=given.optimal)}: so this is it.")
     else:

@@ -6,8 +6,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from rldrill.problems.bellman.value_from_action_values import Given
-from rldrill.problems.exact import Parameter, Scalar
-from rldrill.solutions.exact import ONE, ZERO, Value, exact
+from rldrill.problems.exact import PARAMETERS, Parameter, Scalar
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, told
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.sheet.bellman import (
@@ -71,6 +71,10 @@ def _find(given: Given, work: Work, known: dict[str, Any]) -> None:
     work.say(f"This must equal the given value of {state}:")
     found = work.answer(work.equate(letter, mean, exact(value)))
     if others := [other for other in given.values if other != state]:
+        chances = [chance for other in others for chance in given.policy[other].values()]
+        if any(isinstance(chance, Parameter) and chance.complement for chance in chances):
+            sign = PARAMETERS[letter]
+            work.say(f"With ${sign} = {told(found)}$, $1 − {sign} = {told(ONE - found)}$.")
         work.answer({other: work.step(V_FROM_Q, s=other, **_known(given, found)) for other in others})
 
 

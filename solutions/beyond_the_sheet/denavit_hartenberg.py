@@ -3,6 +3,7 @@
 from typing import Any
 
 from rldrill.problems.beyond_the_sheet.denavit_hartenberg import Given, Link
+from rldrill.problems.exact import shown
 from rldrill.solutions import matrices
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
@@ -20,6 +21,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     NOT_INVERTED,
     WRONG_ORDER,
     rotations,
+    shifts,
 )
 from rldrill.solutions.work import Work
 
@@ -89,9 +91,19 @@ def _through(given: Given, work: Work, known: dict[str, Any], point: AnyMatrix) 
     if outwards:
         work.say("From $p_{i−1} = R_i p_i + o_i$ follows $p_i = R_i^{−1} (p_{i−1} − o_i)$, and $R_i^{−1} = R_i^⊤$.")
     for link in links if outwards else links[::-1]:
-        formula, here = (BACK_POINT, link - 1) if outwards else (FORWARD_POINT, link)
-        turn, shift = (work.step(part, i=link, **known) for part in (rotations()[0], LINK_ORIGIN))
-        moved = work.step(formula, i=link, point={here: point}, rotation={link: turn}, origin={link: shift})
+        here = link - 1 if outwards else link
+        own = given.links[link - 1]
+        if own.theta.number == own.alpha.number == 0:
+            work.say(
+                f"Link ${link}$ neither turns nor twists: $R_{link}$ is the identity, and "
+                f"$o_{link} = ({shown(own.a)}, 0, {shown(own.d)})^⊤$."
+            )
+            shift = matrices.column(map(exact, (own.a, 0, own.d)))
+            moved = work.step(shifts()[outwards], i=link, point={here: point}, origin={link: shift})
+        else:
+            turn, shift = (work.step(part, i=link, **known) for part in (rotations()[0], LINK_ORIGIN))
+            formula = BACK_POINT if outwards else FORWARD_POINT
+            moved = work.step(formula, i=link, point={here: point}, rotation={link: turn}, origin={link: shift})
         point = matrices.column(work.answer(tuple(moved.entries())))
 
 

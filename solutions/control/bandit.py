@@ -62,7 +62,10 @@ def _pulls(pulls: tuple[Pull, ...]) -> dict[str, Any]:
 def _averages(given: Averaged, work: Work) -> dict[str, Value]:
     """The first answer: what each arm gave on average."""
     known = _pulls(given.pulls) | {"n": len(given.pulls)}
-    work.say("Only the pulls of the arm itself count; any other adds $0$ above and below, which is left out.")
+    work.say(
+        f"Of the $n = {len(given.pulls)}$ pulls only those of the arm itself count; any other adds $0$ above and "
+        "below, which is left out."
+    )
     averages: dict[str, Value] = work.answer({arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.tried})
     return averages
 

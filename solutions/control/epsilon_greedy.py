@@ -2,17 +2,21 @@
 
 from typing import Any
 
+from sympy import evaluate
+
 from rldrill.problems.control.epsilon_greedy import Given
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import PARAMETERS, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import NoSolution, Value, equals, exact, sign
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, equals, exact, sign, to_sympy, value_at
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.letters import letter
 from rldrill.solutions.greedy import epsilon_greedy
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import V_FROM_Q
 from rldrill.solutions.sheet.control import (
+    EPSILON_GREEDY,
     NOT_SPLIT,
     SHARE_FORGOTTEN,
     SHARED_AMONG_OTHERS,
@@ -50,7 +54,21 @@ def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
         worth = _value(given, work, chances)
         work.say(f"This value is ${shown(given.state_value)}$:")
         epsilon = work.answer(_rate(given, work, worth, given.state_value))
-        work.answer(epsilon_greedy(work, given.state, values, epsilon))
+        work.answer(_with_rate(given, work, chances, epsilon))
+
+
+def _with_rate(given: Given, work: Work, chances: dict[str, Value], epsilon: Value) -> dict[str, Value]:
+    """The probabilities, which were found in terms of ε, with a number for it."""
+    name = given.left_open[0]
+    found = {}
+    for action, chance in chances.items():
+        greedy = value_at(chance, ZERO)
+        rises = to_sympy(value_at(chance, ONE) - greedy)
+        with evaluate(False):
+            share = rises * letter(name, PARAMETERS[name])
+            right = to_sympy(greedy) + share if greedy != 0 else share
+        found[action] = work.step(EPSILON_GREEDY, right=right, s=given.state, a=action, **{name: epsilon})
+    return found
 
 
 def _rate(given: Given, work: Work, found: Value, wanted: Fraction) -> Value:

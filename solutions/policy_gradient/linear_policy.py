@@ -1,7 +1,6 @@
 """The value of every action, then the action with the greatest."""
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any
 
 from rldrill.problems.exact import Parameter, needed
@@ -30,26 +29,26 @@ def solve(given: Given, work: Work) -> None:
         work.say(f"In {state} the two are equal where")
         edges[state] = work.equate("w", first, second)
         gains[state] = linear(first - second, "w")[0]
-    work.answer(edges)
-    known |= by_number([exact(weight) for weight in given.numbers])
-    _greedy(given, work, _values(given, work, known), _by_the_edges(given, edges, gains))
+    _by_the_edges(given, work, work.answer(edges), gains)
 
 
-def _by_the_edges(given: Given, edges: Mapping[str, Value], gains: Mapping[str, Value]) -> dict[str, str]:
-    """Which action is ahead in every state by the weight of equal values, and why; nothing at this weight itself."""
-    reasons = {}
+def _by_the_edges(given: Given, work: Work, edges: Mapping[str, Value], gains: Mapping[str, Value]) -> None:
+    """The greedy policy at a weight, from the weight of equal values in every state and the side of it."""
+    work.recall(LINEAR_POLICY)
+    weight, best = exact(needed(given.at)), {}
     for state, edge in edges.items():
         rows = tuple(given.features[state])
         behind, ahead = rows if sign(gains[state]) < 0 else rows[::-1]
-        place = sign(exact(needed(given.at)) - edge)
+        place = sign(weight - edge)
+        here, found = f"In {state}, $w = {told(weight)}$", f"${told(edge)}$"
         if place > 0:
-            why = f"above ${told(edge)}$ {ahead} is ahead, since it gains on {behind}"
+            work.say(f"{here} is above {found}, where {ahead} is greedy: as $w$ grows, it gains on {behind}.")
         elif place < 0:
-            why = f"below ${told(edge)}$ {behind} is ahead, since {ahead} gains on it"
+            work.say(f"{here} is below {found}, where {behind} is greedy: as $w$ grows, {ahead} gains on it.")
         else:
-            continue
-        reasons[state] = f" By (a) this must be so: {why} as $w$ grows."
-    return reasons
+            work.say(f"{here}, where both actions have the same value: both are greedy.")
+        best[state] = (ahead,) if place > 0 else (behind,) if place < 0 else rows
+    work.answer(best)
 
 
 def _values(given: Given, work: Work, known: Mapping[str, Any]) -> dict[tuple[str, str], Value]:
@@ -57,13 +56,11 @@ def _values(given: Given, work: Work, known: Mapping[str, Any]) -> dict[tuple[st
     return {(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=a, **known) for s, a in pairs}
 
 
-def _greedy(
-    given: Given, work: Work, values: Mapping[tuple[str, str], Value], why: Mapping[str, str] = MappingProxyType({})
-) -> None:
+def _greedy(given: Given, work: Work, values: Mapping[tuple[str, str], Value]) -> None:
     actions = {state: tuple(row) for state, row in given.features.items()}
     best = {state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions}
     for state, row in best.items():
-        work.say(f"In {state}, {greedy(row, len(actions[state]))}.{why.get(state, '')}")
+        work.say(f"In {state}, {greedy(row, len(actions[state]))}.")
     work.answer(best)
 
 

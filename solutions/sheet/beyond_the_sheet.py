@@ -297,6 +297,16 @@ def rotations() -> tuple[Formula, Formula]:
         )
 
 
+@cache
+def shifts() -> tuple[Formula, Formula]:
+    """A point in the frame before and in the next one, where the rotation between them is the identity."""
+    with evaluate(False):
+        return (
+            replace(FORWARD_POINT, right=point(i) + origin(i), misread={}),
+            replace(BACK_POINT, right=point(i - 1) - origin(i), misread={NOT_INVERTED: point(i - 1) + origin(i)}),
+        )
+
+
 def _corner(transform: Expr) -> tuple[Expr, ...]:
     """The entries of the first three rows and columns of a transform."""
     _, *entries = transform.args

@@ -57,12 +57,12 @@ def test_names_that_are_spelled_alike_stay_apart(tmp_path: Path) -> None:
 
 
 def test_a_closed_output_is_quiet() -> None:
-    process = run("show return/1/430", ">&-")
+    process = run("show return/1/2166", ">&-")
     assert (process.returncode, process.stdout, process.stderr) == (0, b"", b"")
 
 
 def test_a_closed_input_gets_the_usual_sentence() -> None:
-    process = run("quiz return/1/430", "<&-")
+    process = run("quiz return/1/2166", "<&-")
     assert process.returncode == 2
     assert process.stderr.startswith(b"rldrill: The quiz needs a terminal;")
 
@@ -75,7 +75,7 @@ def test_a_closed_pipe_is_quiet() -> None:
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="only some systems have a disk that is always full")
 def test_a_full_disk_is_told_in_one_sentence() -> None:
-    process = run("show return/1/430", "> /dev/full")
+    process = run("show return/1/2166", "> /dev/full")
     assert process.returncode == 3
     assert process.stderr == b"rldrill: The system: no space left on device.\n"
 

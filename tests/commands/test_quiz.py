@@ -151,7 +151,7 @@ def test_hint_first_the_formula_then_the_sentence() -> None:
 
 def test_the_third_miss_leads_to_the_first_line_with_the_numbers_in() -> None:
     # r = 9, −1, 8, 3 and γ = 1/3: R_1 = −1 + 8/3 + 3/9 = 2.
-    typist, session, _ = quiz("1", "5", "3", "h", "2", names=("return/1/430",))
+    typist, session, _ = quiz("1", "5", "3", "h", "2", names=("return/1/2166",))
     assert "Still wrong, so h now shows the first line" in typist.seen
     assert "−1 + 1/3·8 + (1/3)²·3" in typist.seen
     assert session.parts[0].points == Fraction(1, 4)
@@ -159,7 +159,7 @@ def test_the_third_miss_leads_to_the_first_line_with_the_numbers_in() -> None:
 
 def test_a_family_that_is_new_begins_with_another_problem_worked_out() -> None:
     typist = Typist("", "", "q")
-    Screen(typist.screen, typist, seen=["td-zero"]).run([rldrill.draw("return", 1, 430)], Session(1))
+    Screen(typist.screen, typist, seen=["td-zero"]).run([rldrill.draw("return", 1, 2166)], Session(1))
     assert "New: Return." in typist.seen
     example, _, own = typist.seen.partition("your turn")
     assert "R₁ = " in example
@@ -222,7 +222,7 @@ def test_a_line_is_edited_and_what_was_typed_before_comes_back(tmp_path: Path) -
 
 
 #: S = 2I, so R + BᵀSB = [5 6; 6 11], with determinant 19, and BᵀSA = [0 4; 2 6]: L = [−12 8; 10 6]/19.
-GAIN = "lqr-gain/3/152"
+GAIN = "lqr-gain/3/352"
 
 
 @pytest.mark.parametrize(
@@ -254,7 +254,7 @@ def test_the_lines_of_a_table_are_one_answer() -> None:
 
 def test_pasted_numbers_answer_one_part_after_the_other() -> None:
     # r = 9, −1, 8, 3 and γ = 1/3: R_1 = −1 + 8/3 + 3/9 = 2, R_0 = 9 + 2/3 = 29/3.
-    _, session, _ = quiz("2\n29/3", "", names=("return/1/430",))
+    _, session, _ = quiz("2\n29/3", "", names=("return/1/2166",))
     assert [part.state for part in session.parts] == [State.DONE, State.DONE]
 
 

@@ -164,7 +164,14 @@ def test_the_prior_for_the_posterior_is_told() -> None:
 
 def test_another_line_of_a_table_is_named() -> None:
     # Q(cool, slow) = 5 + 1/2·V(cool) = 7 with V(cool) = 4; with V(warm) = 2 it is 6.
-    said = rldrill.load("policy-action-value/1/799772").diagnose("4, 6, 2, -2", "b").sentence
+    rows = [
+        ["cool", "fast", "warm", 1, 3], ["cool", "slow", "cool", 1, 5], ["warm", "fast", "overheated", 1, 2],
+        ["warm", "slow", "cool", 1, -4],
+    ]  # fmt: skip
+    mdp = {"transitions": rows, "terminal": ["overheated"]}
+    given = {"mdp": mdp, "policy": {"cool": "fast", "warm": "fast"}, "gamma": "1/2"}
+    exercise = rldrill.read({"family": "policy-action-value", "given": given})
+    said = exercise.diagnose("4, 6, 2, -2", "b").sentence
     assert said.startswith("It looks as if V^π(warm) = 2 is put in for V^π(cool) = 4 in Q^π(cool, slow)")
 
 

@@ -55,10 +55,10 @@ def test_a_problem_file_is_no_blueprint() -> None:
         ("[[problems]]\nfamily = 'return'\nlevel = 7", "line 3: level: 7 is too large; it must be at most 3."),
         ("\n[[problems]]\nfamily = 'retrun'", "line 2: There is no family 'retrun' (did you mean 'return'?)"),
         ("[[problems]]\nfamily = 'return'\n[[problems]]\nfamily = 'rbf'\nlevel = 3", None),
-        ("[[problems]]\nfamily = 'return'\nid = 'return/1/430'", "line 1: a problem is named by family, topic, id or"),
+        ("[[problems]]\nfamily = 'return'\nid = 'return/1/2166'", "line 1: a problem is named by family, topic, id or"),
         ("[[problems]]\nlevel = 1", "this one names none."),
-        ("[[problems]]\nid = 'return/1/430'\ncount = 2", "line 1: id names one problem; leave level and count out."),
-        ("[[problems]]\nid = 'return/1/430@1'", "line 1: return/1/430@1 is of revision 1"),
+        ("[[problems]]\nid = 'return/1/2166'\ncount = 2", "line 1: id names one problem; leave level and count out."),
+        ("[[problems]]\nid = 'return/1/2166@1'", "line 1: return/1/2166@1 is of revision 1"),
         ("[[problems]]\nfile = 'no.toml'", "there is no such file"),
         ("points = 9\n[[problems]]\nfamily = 'return'\npoints = 5", "line 1: the problems' points add up to 5, not to"),
         (

@@ -51,7 +51,7 @@ def hostile(monkeypatch: pytest.MonkeyPatch, what: object) -> None:
 
 def test_marking_apart_gives_what_marking_here_gives(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
-    path.write_text(HEAD + "A,return/1/430,a,2/3\nA,return/1/430,b,83/9\nB,return/1/430,a,10\n")
+    path.write_text(HEAD + "A,return/1/2166,a,2/3\nA,return/1/2166,b,83/9\nB,return/1/2166,a,10\n")
     assert verify([path], Settings(isolated=True)) == verify([path])
 
 
@@ -158,7 +158,7 @@ def test_whoever_names_problem_after_problem_spends_their_own_time(
 
 
 def test_solving_the_exam_is_not_the_first_students_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    exam = plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/430")), seed=7))
+    exam = plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/2166")), seed=7))
     manifest_path = tmp_path / "exam.json"
     manifest_path.write_bytes(written(manifest(exam)))
     problem = Desk.problem

@@ -25,7 +25,7 @@ CI = ROOT / "examples" / "ci"
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
     """A folder with an exam of two problems, of 1 and 2 points, the first answered right; rldrill in the path."""
-    made = plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/430")), seed=7))
+    made = plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/2166")), seed=7))
     (tmp_path / "exam.json").write_bytes(written(manifest(made)))
     (tmp_path / "ann.answers.toml").write_text('"1" = "21/4"\n["2"]\na = "10"\n')
     tool = tmp_path / "bin" / "rldrill"
@@ -157,7 +157,7 @@ def test_the_hook_takes_answer_files_and_refuses_what_is_wrong(course: Path) -> 
 def test_the_plugin_makes_a_test_of_every_part(tmp_path: Path) -> None:
     right = (CI / "pytest" / "course.answers.toml").read_text(encoding="utf-8")
     (tmp_path / "course.answers.toml").write_text(right, encoding="utf-8")
-    (tmp_path / "wrong.answers.toml").write_text('"return/1/430" = {a = "2/3"}\n"nonsense" = 1\n')
+    (tmp_path / "wrong.answers.toml").write_text('"return/1/2166" = {a = "2/3"}\n"nonsense" = 1\n')
     plugin = ["-p", "rldrill.grading.pytest_plugin", "-p", "no:cacheprovider"]
     command = [sys.executable, "-m", "pytest", "--color=no", *plugin, str(tmp_path)]
     environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}

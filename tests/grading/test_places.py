@@ -83,7 +83,7 @@ def test_no_text_is_too_much(content: str) -> None:
 def test_every_message_about_an_answer_has_its_place(tmp_path: Path) -> None:
     path = tmp_path / "a.toml"
     path.write_text(
-        'student = "Ann"\n["return/1/430"]\na = "2/3"\n  b = "1,5"\nz = 1\n[ "td-zero/1/62590"]\na = 2024-01-01\n'
+        'student = "Ann"\n["return/1/2166"]\na = "2/3"\n  b = "1,5"\nz = 1\n[ "td-zero/1/62590"]\na = 2024-01-01\n'
     )
     report = verify([path])
     assert [refusal.line for refusal in report.refused] == [7, 5]
@@ -93,10 +93,10 @@ def test_every_message_about_an_answer_has_its_place(tmp_path: Path) -> None:
         told = form.written(report, "verdict")
         assert f"{path}, line 3, column 5" in told
         assert f"{path}, line 4, column 7" in told
-    assert f"return/1/430@4,b,{path},4,7," in tables.written(report, "verdict")
+    assert f"return/1/2166@5,b,{path},4,7," in tables.written(report, "verdict")
 
 
 def test_a_line_of_json_has_its_columns(tmp_path: Path) -> None:
     path = tmp_path / "a.jsonl"
-    path.write_text('\n{"problem": "return/1/430", "part": "a",  "answer":  "2/3"}\n')
-    assert f"({path}, line 2, column 54)" in text.written(verify([path]), "reason")
+    path.write_text('\n{"problem": "return/1/2166", "part": "a",  "answer":  "2/3"}\n')
+    assert f"({path}, line 2, column 55)" in text.written(verify([path]), "reason")

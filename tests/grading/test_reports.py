@@ -34,9 +34,9 @@ ROWS = [
     ("student", "problem", "part", "answer"),
     ("Ann", "td-zero/1/62590", "a", "21/4"),
     ("Ben", "td-zero/1/62590", "a", "worn: 5,25"),
-    ("Ben", "return/1/430", "a", "2/3"),
-    (EVIL, "return/1/430", "a", "<script>alert(1)</script>"),
-    (EVIL, "return/1/430", "b", "=1+1\n::error::mine"),
+    ("Ben", "return/1/2166", "a", "2/3"),
+    (EVIL, "return/1/2166", "a", "<script>alert(1)</script>"),
+    (EVIL, "return/1/2166", "b", "=1+1\n::error::mine"),
     ("Cem", "td-zero/9/7", "a", "1"),
 ]
 #: The schema by which Jenkins reads it.
@@ -134,7 +134,7 @@ def test_the_same_under_two_names_earns_no_more_in_one_submission(tmp_path: Path
 def test_what_is_in_several_files_of_a_submission_counts_together(tmp_path: Path) -> None:
     (tmp_path / "1.toml").write_text('"1" = "21/4"\n')
     (tmp_path / "2.toml").write_text('["2"]\na = "10"\n')
-    blueprint = Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/430")), seed=7)
+    blueprint = Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/2166")), seed=7)
     (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
     answers = sorted(tmp_path.glob("*.toml"))
     results = json.loads(
@@ -264,7 +264,7 @@ def test_a_long_name_is_not_cut_within_a_character(tmp_path: Path) -> None:
 def test_the_verdict_is_the_same_whether_it_is_searched_for_causes(tmp_path: Path) -> None:
     # R_0 = 8 + 4/2 + 9/4 + 6/8 = 13; with γ·i for γⁱ R_1 = 9/2 + 6 = 21/2, and R_0 = 8 + 21/4 = 13.25, within 2 %.
     path = tmp_path / "a.csv"
-    path.write_text("student,problem,part,answer\nA,return/1/56,b,13.25\nB,return/1/56,b,13.1\n")
+    path.write_text("student,problem,part,answer\nA,return/1/1745,b,13.25\nB,return/1/1745,b,13.1\n")
     searched, judged = (verify([path], Settings(rules=Rules(causes=causes))).students for causes in (True, False))
     assert [student.parts[1].judged.verdict for student in searched] == ["wrong", "close"]
     assert [student.parts[1].judged.verdict for student in judged] == ["wrong", "close"]

@@ -156,7 +156,7 @@ def test_the_names_of_states_and_actions_are_no_letters_of_a_notation() -> None:
         ("control", "model-fitting/1/1", ["the prior Beta(a, b)"], r"Beta\(u"),
         ("sutton-barto", "ppo-clip/1/3", ["Aₜ is the estimated advantage of the action aₜ"], "Sₜ"),
         ("sutton-barto", "importance-sampling/3/3", ["p is left open", "v̂_π(medium)"], r"V|p\("),
-        ("sutton-barto", "lqr-backward/3/6", ["a₀ = 2/5", "Aₜ"], "A₀ = 2/5"),
+        ("sutton-barto", "lqr-backward/3/45", ["a₀ = 2/5", "Aₜ"], "A₀ = 2/5"),
         ("sutton-barto", "action-value/2/2", ["p = π(fast|warm)", "Pₛₛ′ᵃ"], r"p\(s′"),
     ],
 )
@@ -177,7 +177,7 @@ def test_a_letter_left_open_is_typed_as_it_is_asked_for() -> None:
 
 
 def test_a_question_that_was_seen_before_is_written_anew() -> None:
-    exercise = rldrill.load("lqr-backward/2/1")
+    exercise = rldrill.load("lqr-backward/2/6")
     assert "s₀ = 2" in written(exercise)
     with used("control"):
         assert "x₀ = 2" in written(exercise)

@@ -78,7 +78,7 @@ def test_where_keys_are_offered_one_key_is_enough(terminal: Terminal) -> None:
 
 
 def test_a_letter_that_begins_an_answer_is_no_key(tmp_path: Path) -> None:
-    running = Terminal(tmp_path, 80, "return/1/430")
+    running = Terminal(tmp_path, 80, "return/1/2166")
     running.sees("(a) > ")
     for key in "hwsq":
         running.presses(key, f"\x1b[0m{key}\x1b")  # it stands there, and is deleted
@@ -171,7 +171,7 @@ def test_plain_is_ascii_without_pictures(tmp_path: Path) -> None:
 
 def test_an_exam_that_is_killed_goes_on_with_what_was_answered(tmp_path: Path) -> None:
     blueprint = tmp_path / "exam.toml"
-    blueprint.write_text('duration = 60\n[[problems]]\nid = "return/1/430"\n')
+    blueprint.write_text('duration = 60\n[[problems]]\nid = "return/1/2166"\n')
     arguments = ("--exam", str(blueprint), "--answers", str(tmp_path / "mine.toml"))
     killed = Terminal(tmp_path, 80, *arguments)
     killed.sees("[60 min left] 1a > ")
@@ -187,7 +187,7 @@ def test_an_exam_that_is_killed_goes_on_with_what_was_answered(tmp_path: Path) -
 
 
 def test_the_next_problem_begins_at_the_top_of_the_screen_and_what_was_there_is_scrolled_away(tmp_path: Path) -> None:
-    running = Terminal(tmp_path, 80, "return/1/430", "return/1/8")
+    running = Terminal(tmp_path, 80, "return/1/2166", "return/1/8")
     running.sees("(a) > ")
     running.types("s", "(b) > ")
     running.types("s", "Enter next", "> ")

@@ -29,7 +29,7 @@ from rldrill.quiz.sitting_screen import SittingScreen
 START = datetime(2026, 11, 26, 9, tzinfo=UTC)
 
 #: return/1: (a) and (b), a point each; td-zero/1: one point.
-PROBLEMS = (Entry(id="return/1/430"), Entry(id="td-zero/1/62590"))
+PROBLEMS = (Entry(id="return/1/2166"), Entry(id="td-zero/1/62590"))
 
 
 def exam(**more: object) -> Exam:
@@ -244,7 +244,7 @@ def test_verify_gives_the_same_points(sitting: Sitting, typed: tuple[str, ...]) 
 
 
 def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path) -> None:
-    entries = (Entry(id="return/1/430", points=(5, 3)), Entry(id="td-zero/1/62590", points=4))
+    entries = (Entry(id="return/1/2166", points=(5, 3)), Entry(id="td-zero/1/62590", points=4))
     planned = plan(Blueprint(problems=entries, seed=1))
     sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START, tmp_path / "exam.json")
     (tmp_path / "exam.json").write_bytes(written(manifest(planned)))
@@ -267,9 +267,9 @@ TABLE = ("-6, 0, -3", "medium: 4.44, critical: 9.4")
         ("td-zero/2/18", {"partial": "entries"}, TABLE, 3, 4),
         ("td-zero/2/18", {"own": ("entries", "all")}, TABLE, 3, 4),
         # the return is 2, then 9 + 1/3·2 = 29/3
-        ("return/1/430", {"decimal_mark": ","}, ("2,0", "9,67"), 2, 2),
-        # linearise-affine/1/6 (b) is [3/4 −1; 0 1]: the last row is 0 1 in every draw
-        ("linearise-affine/1/6", {"partial": "entries"}, ("", "7 7; 0 1"), 0, None),
+        ("return/1/2166", {"decimal_mark": ","}, ("2,0", "9,67"), 2, 2),
+        # linearise-affine/1/1627 (b) is [3/4 −1; 0 1]: the last row is 0 1 in every draw
+        ("linearise-affine/1/1627", {"partial": "entries"}, ("", "7 7; 0 1"), 0, None),
     ],
 )
 def test_the_points_in_the_terminal_are_those_that_verify_gives_by_the_manifest(
@@ -514,18 +514,18 @@ def test_who_sits_it_stays_in_the_file_and_problems_may_be_called_by_their_numbe
     "other",
     [
         '[[problems]]\nid = "td-zero/1/62590"\n[[problems]]\nfamily = "td-zero"\n',
-        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "sarsa"\n',
-        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\ncount = 2\n',
-        '[[problems]]\nid = "return/1/430"\n',
-        'seed = 6\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
-        '[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\nlevel = 3\n',
-        '[[problems]]\nid = "return/1/430"\n[[problems]]\ntopic = "bayes"\n',
-        'points = 30\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n',
+        '[[problems]]\nid = "return/1/2166"\n[[problems]]\nfamily = "sarsa"\n',
+        '[[problems]]\nid = "return/1/2166"\n[[problems]]\nfamily = "td-zero"\ncount = 2\n',
+        '[[problems]]\nid = "return/1/2166"\n',
+        'seed = 6\n[[problems]]\nid = "return/1/2166"\n[[problems]]\nfamily = "td-zero"\n',
+        '[[problems]]\nid = "return/1/2166"\n[[problems]]\nfamily = "td-zero"\nlevel = 3\n',
+        '[[problems]]\nid = "return/1/2166"\n[[problems]]\ntopic = "bayes"\n',
+        'points = 30\n[[problems]]\nid = "return/1/2166"\n[[problems]]\nfamily = "td-zero"\n',
     ],
 )
 def test_next_weeks_quiz_of_the_same_title_does_not_go_on_with_this_weeks(tmp_path: Path, other: str) -> None:
     path, saved = tmp_path / "exam.toml", tmp_path / "exam-answers.json"
-    text = 'duration = 10\n[[problems]]\nid = "return/1/430"\n[[problems]]\nfamily = "td-zero"\n'
+    text = 'duration = 10\n[[problems]]\nid = "return/1/2166"\n[[problems]]\nfamily = "td-zero"\n'
     path.write_text(f"seed = 5\n{text}", encoding="utf-8")
     begun = _begun(path, saved, None)
     path.write_text(text.replace("10", "20"), encoding="utf-8")  # more time is no other exam

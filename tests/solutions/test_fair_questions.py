@@ -1,6 +1,7 @@
 """What an examiner holds against questions and workings, over many draws: one test for each kind."""
 
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from itertools import accumulate
 
 import pytest
@@ -111,6 +112,15 @@ def test_every_link_turns() -> None:
     for level in (1, 2, 3):
         for solution in drawn("jacobian", level):
             assert all(accumulate(solution.problem.given.rates or ()))
+
+
+def test_the_best_way_at_once_is_one_way() -> None:
+    for level in (1, 2, 3):
+        for solution in drawn("principle-of-optimality", level):
+            rewards: dict[str, list[Fraction]] = {}
+            for edge in solution.problem.given.edges:
+                rewards.setdefault(edge.state, []).append(edge.reward)
+            assert all(row.count(max(row)) == 1 for row in rewards.values())
 
 
 def _indexed(solution: Solution) -> list[object]:

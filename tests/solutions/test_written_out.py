@@ -146,10 +146,18 @@ def test_a_greedy_action_follows_from_the_weight_of_equal_values() -> None:
     features = {"x": {"sail": [7, -2], "drift": [2, 0]}, "y": {"sail": [0, -3], "drift": [3, 0]}}
     given = {"theta": ["w", -3], "features": features}
     text = " ".join(written("linear-policy", given | {"at": "5/2"}, "b"))
-    assert "By (a) this must be so: above −6/5 sail is ahead, since it gains on drift as w grows. In y," in text
-    assert text.endswith("By (a) this must be so: below 3 sail is ahead, since drift gains on it as w grows.")
+    assert "In x, w = 5/2 is above −6/5, where sail is greedy: as w grows, it gains on drift. In y," in text
+    assert text.endswith("w = 5/2 is below 3, where sail is greedy: as w grows, drift gains on it.")
     text = " ".join(written("linear-policy", given | {"at": 3}, "b"))
-    assert text.endswith("In y, sail and drift have the same value: both are greedy.")
+    assert text.endswith("In y, w = 3, where both actions have the same value: both are greedy.")
+
+
+def test_probabilities_in_terms_of_an_exploration_rate_are_not_found_again_when_it_is() -> None:
+    # Two actions, a the better one: 1 − ε/2 and ε/2. V = 4·(1 − ε/2) + 0 = 3 at ε = 1/2.
+    given = {"state": "s", "values": {"a": 4, "b": 0}, "epsilon": "epsilon", "state_value": 3}
+    lines = written("epsilon-greedy", given, "b")
+    assert in_order(lines, "π(a|s) = 1 − 1/2·ε", "1 − 1/2·1/2", "1 − 1/4", "3/4", "π(b|s) = 1/2·ε", "1/2·1/2", "1/4")
+    assert "greedy action" not in " ".join(lines)
 
 
 def test_sums_of_rewards_are_written_down() -> None:
@@ -200,3 +208,16 @@ def test_of_two_values_that_are_equal_none_is_the_greater(row: dict[str, int], s
     text = " ".join(written("dyna-q", given))
     assert f"Real update at t = 0, of the pair (a, x); {said}:" in text
     assert f"next state b, and {said}:" in text
+
+
+def test_a_link_that_neither_turns_nor_twists_shifts_alone() -> None:
+    # p₁ = (3, 4, 5) − (1, 0, 2), and back from (2, 4, 3) the same sum.
+    links = [{"theta": 0, "d": 2, "a": 1, "alpha": 0}]
+    for asked, point, answer in (("back", [3, 4, 5], (2, 4, 3)), ("point", [2, 4, 3], (3, 4, 5))):
+        exercise = rldrill.read(
+            {"family": "denavit-hartenberg", "given": {"links": links, "asked": asked, "point": point}}
+        )
+        assert exercise.solve() == {"a": answer}
+        assert "Link 1 neither turns nor twists: R₁ is the identity, and o₁ = (1, 0, 2)ᵀ." in str(exercise.working())
+        assert "cos" not in str(exercise.working())
+        assert [part.points for part in exercise.parts] == [1]
