@@ -163,7 +163,10 @@ def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None
     with _progress("Drawing", len(people) or blueprint.versions) as advance:
         exam = plan(blueprint, roster=people, secret=_secret(secret_file), advance=advance)
     typer.echo(f"seed {exam.seed}", err=True)
-    _tell(len(exam.versions), fairness(exam), blueprint.minutes)
+    figures = fairness(exam)
+    if blueprint.duration and (printed := figures.says_what_is_printed(blueprint.duration)):
+        typer.echo(f"rldrill: {printed}", err=True)
+    _tell(len(exam.versions), figures, blueprint.minutes)
     return exam
 
 

@@ -49,13 +49,25 @@ class Fairness(Struct, frozen=True):
 
     def says_what_is_missed(self, wanted: int) -> str:
         """How many minutes there are, in a sentence, where they miss those that are wanted; nothing where not."""
-        least, most = self.minutes
         if all(abs(minutes - wanted) <= _NEAR * wanted for minutes in self.minutes):
             return ""
-        found = f"{least}" if least == most else f"{least} to {most}"
         return (
-            f"the problems take {found} minutes, not {wanted}; ask for other minutes, or name more topics or problems"
+            f"the problems take {self._found} minutes, not {wanted}; ask for other minutes, or name more topics or "
+            "problems"
         )
+
+    def says_what_is_printed(self, duration: int) -> str:
+        """That the minutes at the head are fewer than the problems take, or more than twice as many; or nothing."""
+        if max(self.minutes) <= duration <= 2 * max(self.minutes):
+            return ""
+        return (
+            f"the problems take {self._found} minutes, and the head says {duration}; correct 'duration' or the problems"
+        )
+
+    @property
+    def _found(self) -> str:
+        least, most = self.minutes
+        return f"{least}" if least == most else f"{least} to {most}"
 
     def says_what_is_scarce(self, versions: int) -> str:
         """Where answers are shared, and why, in a sentence; nothing where none are."""

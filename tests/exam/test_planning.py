@@ -258,3 +258,16 @@ def test_many_versions_are_planned_in_a_process_of_its_own(
     monkeypatch.setattr("rldrill.exam.drawn._drawn", lambda *_: "here")
     monkeypatch.setattr("rldrill.exam.drawn.apart", lambda *_: "apart")
     assert drawn.drawn(blueprint("bellman", versions=versions), "0") == where
+
+
+@pytest.mark.parametrize(
+    ("minutes", "duration", "told"),
+    [
+        ((12, 12), 90, "the problems take 12 minutes, and the head says 90"),
+        ((58, 61), 60, "the problems take 58 to 61 minutes, and the head says 60"),
+        ((45, 50), 60, ""),
+        ((45, 50), 100, ""),
+    ],
+)
+def test_a_duration_that_does_not_fit_the_problems_is_told(minutes: tuple[int, int], duration: int, told: str) -> None:
+    assert Fairness(0, 0, minutes, 0.0, {}, {}, {}).says_what_is_printed(duration).partition(";")[0] == told
