@@ -164,6 +164,8 @@ class SittingScreen:
             elif command in ("", "next"):
                 at += 1
             elif command == "back":
+                if at == 0:
+                    self._print(words(("  This is the first part.", "yellow")))
                 at = max(0, at - 1)
             elif match := _GO.fullmatch(command):
                 at = self._found(places, match, at)

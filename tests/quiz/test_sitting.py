@@ -110,8 +110,9 @@ def test_nothing_is_judged_before_it_is_handed_in(sitting: Sitting) -> None:
 
 def test_back_and_change_and_go_to_a_part(sitting: Sitting) -> None:
     a, b, last = right(sitting)
-    handed_in, text, _ = sit(sitting, "1", "2", "back", b, "go 1a", a, "go 9", "go 2", last, "yes")
+    handed_in, text, _ = sit(sitting, "back", "1", "2", "back", b, "go 1a", a, "go 9", "go 2", last, "yes")
     assert handed_in
+    assert text.count("This is the first part.") == 1
     assert "There is no part 9." in text
     assert "your answer so far: 2" in text
     assert "3 of 3 points" in text
