@@ -56,6 +56,9 @@ PARAMETERS = {
     "x": "x",
 }
 
+#: The same in a sentence.
+PARAMETERS_TOLD = f"{', '.join([*PARAMETERS][:-1])} and {[*PARAMETERS][-1]}"
+
 #: Those of them that lie between 0 and 1.
 SHARES = frozenset({"gamma", "alpha", "lambda", "epsilon", "p", "q"})
 
@@ -167,6 +170,11 @@ def read_scalar(value: object) -> Scalar:
             return _BY_NAME[name]
         case Operation("-", (one, Name(name))) if whole(one) == 1 and name in _BY_NAME:
             return Parameter(f"1-{_BY_NAME[name]}")
+        case Name(name) if name.lower() not in ("nan", "inf"):
+            raise ValueError(
+                f"{value[:40]!r} is not a number such as 3, 0.75 or 3/4, and no letter that may be left open; these "
+                f"are {PARAMETERS_TOLD}"
+            )
     return _fraction(value)
 
 

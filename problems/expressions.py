@@ -79,7 +79,7 @@ def _check(node: Node) -> None:
             try:
                 letter(name)
             except ValueError as fault:
-                raise Unreadable(f"{fault}.", node.at) from None
+                raise Unreadable(f"{fault}; the functions are {', '.join(FUNCTIONS)}.", node.at) from None
 
 
 def _expression(text: str) -> str:

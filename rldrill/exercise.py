@@ -32,7 +32,7 @@ from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import points, seconds_of
-from rldrill.solutions.exact import NoSolution, TooLong
+from rldrill.solutions.exact import NoSolution, NotSolved, TooLong
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.matrices import is_matrix, matrix
@@ -516,7 +516,7 @@ def read(data: object, where: str = "the problem") -> Exercise:
         return Exercise(solve_problem(problem), tuple(dict.fromkeys(notes)))
     except FileError as error:
         raise FileError(f"{where}: {error}") from None
-    except TooLong as error:
+    except (TooLong, NotSolved) as error:
         raise FileError(f"{where}: {error}.") from None
     except NoSolution as error:
         raise FileError(f"{where}: this problem has no answer: {error}.") from None

@@ -25,8 +25,10 @@ _TOML_PLACE = re.compile(r" \((?:at line (\d+), column (\d+)|at end of document)
 #: A key with more dots than there may be brackets: reading it takes time and memory by the square of them.
 _KEY = r"(?:[\w-]++|\"(?:[^\"\\\n]|\\.)*+\"|'[^'\n]*+')[ \t]*+"
 _DOTTED = re.compile(rf"(?<![^\s.\[{{,])(?:{_KEY}\.[ \t]*+){{{_DEEPEST}}}", re.ASCII)
-#: A fraction that is no text, and what is one; a line of YAML.
+#: A fraction, a decimal without a digit before its point and a word that are no texts, and what is one; a line of YAML.
 _BARE_FRACTION = re.compile(r"(?<![\w./-])-?\d+/\d+(?![\w./-])")
+_BARE_DECIMAL = re.compile(r"(?<![\w.)])([-+]?)(\.[0-9]+)\b")
+_BARE_WORD = re.compile(r"^[^=#]*=\s*(?!(?:true|false|nan|inf)\b)([A-Za-z][\w-]*)\s*(?:#.*)?$")
 _QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")
 _QUOTE = re.compile("[\"']")
 _YAML = re.compile(r"\s*(?:- )?[\w-]+:(?:\s|$)")
@@ -185,6 +187,10 @@ def _cure(message: str, line: str) -> str:
         return f"{key[:_KEY_SHOWN]} stands twice; keep one of them"
     if found := _BARE_FRACTION.search(_QUOTED.sub("", line)):
         return f'a fraction stands in quotes: "{found[0]}"'
+    if found := _BARE_DECIMAL.search(_QUOTED.sub("", line)):
+        return f"a number begins with a digit: {found[1]}0{found[2]}"
+    if found := _BARE_WORD.search(_QUOTED.sub('""', line)):
+        return f'a text stands in quotes: "{found[1][:_KEY_SHOWN]}"'
     if found := _GREEK_NAME.search(_QUOTED.sub("", line)):
         name = "".join(_SPELLED.get(sign, sign) for sign in found[0][:_KEY_SHOWN])
         return f"a Greek name stands in quotes there, or is spelled out: {name}"

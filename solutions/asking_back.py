@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 from rldrill.problems.asking_back import AskingBack, BackMoves, BackRun, Outcome, Rows, rival
 from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions.exact import Value, exact
-from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.oracle import Answers, at, root_between
 from rldrill.solutions.work import Work
 
 Pair: TypeAlias = tuple[str, str]
@@ -47,7 +47,7 @@ def asks_for(given: Any, letter: str) -> bool:
 
 
 def oracle_along(given: AskingBack, learned: Callable[[Any], Answers], pairs: Sequence[Pair]) -> Answers:
-    """What is learned; or the parameter at which the value of a pair, which is linear in it, is what it is in the end.
+    """What is learned; or the parameter at which the value of a pair is what it is in the end.
 
     Args:
         given: the problem.
@@ -58,7 +58,9 @@ def oracle_along(given: AskingBack, learned: Callable[[Any], Answers], pairs: Se
         return learned(given)
     field = next(name for name in type(given).model_fields if isinstance(getattr(given, name), Parameter))
     place = pairs.index((given.outcome.state, given.outcome.action))
-    at_0, at_1 = (
-        float(learned(given.model_copy(update={field: number, "outcome": None}))[-1][place]) for number in (0, 1)
-    )
-    return ((at(given.outcome.value) - at_0) / (at_1 - at_0),)
+    value = at(given.outcome.value)
+    return (root_between(lambda trial: float(learned(_with(given, field, trial))[-1][place]) - value),)
+
+
+def _with(given: AskingBack, field: str, number: float) -> AskingBack:
+    return given.model_copy(update={field: number, "outcome": None})

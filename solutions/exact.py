@@ -21,6 +21,7 @@ from rldrill.solutions.rational import RationalFunction, generator
 from rldrill.solutions.value import NoSolution as NoSolution
 from rldrill.solutions.value import NotGiven as NotGiven
 from rldrill.solutions.value import NotReal as NotReal
+from rldrill.solutions.value import NotSolved as NotSolved
 from rldrill.solutions.value import TooLong as TooLong
 from rldrill.solutions.value import Value as Value
 

@@ -20,6 +20,10 @@ Answers: TypeAlias = Sequence[Any]
 #: The number at which expressions in an open parameter are compared.
 OPEN = Fraction(7, 19)
 
+#: Where a polynomial is looked at, whether it is a straight line; of how high a degree it may be; and how far off
+#: a root may be, which counts twice.
+_TRIALS, _HIGHEST, _NEAR = (0.25, 0.5, 0.75), 24, 1e-5
+
 
 def at(number: Weight | int, left_open: float = float(OPEN)) -> float:
     """A given number as a float; an open parameter takes the value ``OPEN``, or another."""
@@ -34,6 +38,20 @@ def root(gap: Callable[[float], float]) -> float:
     """Where a linear function is 0."""
     first, last = gap(0.0), gap(1.0)
     return first / (first - last)
+
+
+def root_between(gap: Callable[[float], float]) -> float:
+    """Where a polynomial is 0, between 0 and 1 if it is so there; it is looked at in between only."""
+    low, middle, high = map(gap, _TRIALS)
+    if math.isclose(low + high, 2 * middle, rel_tol=1e-9, abs_tol=1e-9):
+        return _TRIALS[0] - (_TRIALS[2] - _TRIALS[0]) * low / (high - low)
+    from numpy.polynomial import Chebyshev
+
+    line = Chebyshev.interpolate(np.vectorize(gap), _HIGHEST, domain=[0, 1]).trim(1e-10)
+    roots = np.asarray(line.roots(), dtype=complex)
+    real = roots.real[np.abs(roots.imag) < _NEAR]
+    between = real[np.abs(real - 0.5) < 0.5 + _NEAR]
+    return float(np.mean(between if between.size else real))
 
 
 def tensors(model: Model, left_open: float = float(OPEN)) -> tuple[Array, Array]:

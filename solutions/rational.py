@@ -11,7 +11,7 @@ from flint import fmpq, fmpq_poly
 from msgspec import Struct
 
 from rldrill.solutions.closed_forms import rational
-from rldrill.solutions.value import NoSolution, NotReal, Value
+from rldrill.solutions.value import NoSolution, NotReal, NotSolved, Value
 
 _ONE = fmpq_poly([1])
 _Operation: TypeAlias = Callable[["RationalFunction", "RationalFunction"], Value]
@@ -174,7 +174,8 @@ def linear(value: Value, parameter: str) -> tuple[Value, Value]:
     """The a and b for which a·x + b = 0 where the value, a function of the parameter x, is zero.
 
     Raises:
-        NoSolution: the value does not depend on the parameter, or not linearly.
+        NoSolution: the value does not depend on the parameter.
+        NotSolved: it does so, but not linearly.
     """
     coefficients = _coefficients(value, parameter)
     if coefficients is None:
@@ -182,7 +183,7 @@ def linear(value: Value, parameter: str) -> tuple[Value, Value]:
     if len(coefficients) == 1:
         raise NoSolution(f"no value of {parameter} solves the equation; change the numbers that are given")
     if len(coefficients) != 2:
-        raise NoSolution(f"the equation is not linear in {parameter}; change the numbers that are given")
+        raise NotSolved(f"the equation for {parameter} is not linear, and is not solved; change what is given")
     constant, slope = coefficients
     return slope, constant
 

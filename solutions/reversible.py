@@ -1,4 +1,4 @@
-"""The value of a letter from what comes out: exactly from an equation, independently from two trials."""
+"""The value of a letter from what comes out: exactly from an equation, independently from trials."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
@@ -11,14 +11,11 @@ from rldrill.solutions.exact import ONE, NoSolution, Value, exact, parameters, t
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.found import found_line
-from rldrill.solutions.oracle import at
+from rldrill.solutions.oracle import at, root_between
 from rldrill.solutions.work import Work
 
 Given = TypeVar("Given", bound=Reversible)
 Run = TypeVar("Run", bound=ValueRun)
-
-#: Two numbers that any letter may stand for: between 0 and 1.
-_TRIALS = Fraction(1, 4), Fraction(3, 4)
 
 
 def find(given: Reversible, work: Work, value: Value, named: str) -> Value:
@@ -40,10 +37,8 @@ def find(given: Reversible, work: Work, value: Value, named: str) -> Value:
 
 
 def tried(given: Given, outcome: Callable[[Given], float]) -> float:
-    """The number for the letter, where a straight line through the outcomes of two trials reaches what is known."""
-    low, high = (outcome(with_letter(given, trial)) for trial in _TRIALS)
-    first, second = map(float, _TRIALS)
-    return first + (second - first) * (at(needed(given.known)) - low) / (high - low)
+    """The number for the letter, where a line through the outcomes of trials reaches what is known."""
+    return root_between(lambda trial: outcome(with_letter(given, Fraction(trial))) - at(needed(given.known)))
 
 
 def reading(letter: Value) -> Callable[[Scalar], Value]:

@@ -31,6 +31,10 @@ class NoSolution(ArithmeticError):
     """The values given have no answer: a singular matrix, a system without a solution."""
 
 
+class NotSolved(NoSolution):
+    """What is asked for may well have an answer, but not one that is found here."""
+
+
 class NotGiven(LookupError):
     """A formula asks for something that the problem does not give."""
 

@@ -29,6 +29,7 @@ from rldrill.solutions.formula.typesetting import alone, tabular, typeset, types
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.rational import generator, linear, without_quotients
+from rldrill.solutions.roots import as_zeros, degree, only_root
 from rldrill.solutions.vector import Vector
 
 
@@ -387,7 +388,9 @@ class Work:
             self.lines += (Note("Solving these equations:"), Result(tuple(names.values()), values))
 
     def equate(self, letter: str, left: Any, right: Any, *, share: bool = False, positive: bool = False) -> Value:
-        """Solve an equation that is linear in one letter, in front of the reader; the letter's value.
+        """Solve an equation in one letter, in front of the reader; the letter's value.
+
+        One of higher degree is solved on the right way alone, where one root is all that the letter can be.
 
         Args:
             letter: the letter, ``gamma``; the sides were worked out with ``generator("gamma")`` in its place.
@@ -399,7 +402,10 @@ class Work:
         Raises:
             NoSolution: every value solves the equation, or none, or one that the letter cannot have.
         """
-        slope, constant = linear(left - right, letter)
+        difference = left - right
+        if self.misconception is None and degree(difference, letter) > 1:
+            return self._equate_in_factors(left, right, difference, share=share, positive=positive)
+        slope, constant = linear(difference, letter)
         cleared = without_quotients(left, right, letter)
         if cleared:
             slope, constant = linear(cleared[0] - cleared[1], letter)
@@ -419,6 +425,15 @@ class Work:
             self.lines.append(Equality(unknown * slope, (ZERO - constant,)))
         if (left, right) != (unknown, value):
             self.lines.append(Equality(unknown, (value,)))
+        return value
+
+    def _equate_in_factors(self, left: Any, right: Any, difference: Any, *, share: bool, positive: bool) -> Value:
+        letter = difference.parameter
+        value, where = only_root(difference, share=share, positive=positive)
+        self.letters.append(Found(letter, value, share, positive))
+        self.lines += [Equality(left, (right,)), *(Equality(zero, (ZERO,)) for zero in as_zeros(difference))]
+        self.say(f"Only one ${PARAMETERS.get(letter, letter)}${where} solves this:")
+        self.lines.append(Equality(generator(letter), (value,)))
         return value
 
     def recall(self, formula: Formula) -> None:

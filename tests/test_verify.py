@@ -630,6 +630,17 @@ def test_a_report_that_cannot_be_written_leaves_the_one_before(folder: Path, mon
     assert before.read_text() == "{}"
 
 
+@pytest.mark.parametrize(("names", "told"), [(("Ann", "Ben"), True), (("Ann", "Ann"), False)])
+def test_who_reports_many_to_gradescope_is_told_that_it_is_one_submission(
+    folder: Path, names: tuple[str, str], told: bool
+) -> None:
+    first, second = names
+    rows = f"{first},td.toml,a,6.8\n{second},return.toml,a,10\n"
+    path = write(folder, "a.csv", f"student,problem,part,answer\n{rows}")
+    _, _, said = run(path, "--report", f"gradescope={folder / 'results.json'}")
+    assert ("2 students stand in these files" in said) is told
+
+
 @pytest.mark.parametrize("columns", ["40", "60", "80"])
 def test_narrow_terminals_fold_and_do_not_cut(folder: Path, columns: str) -> None:
     path = write(folder, "a.toml", '"td.toml" = 6.9')  # γ forgotten

@@ -160,10 +160,8 @@ def question(given: Single | Compared) -> Question:
         return Question(blocks, (letter_asked(given),))
     if given.time is None:
         entries = tuple(f"R_{{{time}}}" for time in range(end))
-        between = "…, " if end > 2 else ""
-        returns = (
-            f"are the returns $R_0, {between}R_{{{end - 1}}}$, in this order" if end > 1 else "is the return $R_0$"
-        )
+        named = "$R_0$ and $R_1$" if end == 2 else f"$R_0, …, R_{{{end - 1}}}$"
+        returns = f"are the returns {named}, in this order" if end > 1 else "is the return $R_0$"
         ask = f"What {returns}{in_open(given)}?"
         return Question(blocks, (Part(ask, Numbers(entries)),))
     parts = [Part(f"What is the return $R_{{{given.time}}}${in_open(given)}?", Number())]

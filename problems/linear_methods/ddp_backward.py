@@ -18,6 +18,7 @@ from rldrill.problems.names import once
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import (
     Letter,
+    Lettered,
     Robot,
     System,
     column,
@@ -33,6 +34,7 @@ from rldrill.problems.robots import (
 TITLE = "Backward step of DDP"
 SOURCE = "Tassa, Erez & Todorov 2012"
 REVISION = 6
+_LEFT_OUT = "Left out here, where the dynamics give the next state itself: it is for rates of change."
 
 
 class Given(System):
@@ -42,6 +44,13 @@ class Given(System):
     derivatives of the dynamics count (DDP), without they do not (iLQR).
     """
 
+    dynamics: Lettered[Expression] = Field(
+        min_length=1, max_length=6, description="For every letter of the state its next value, not its rate of change."
+    )
+    where: Lettered[Expression] = Field(
+        default_factory=dict, max_length=8, description=_LEFT_OUT, examples=[{"D": "m_c + m_p"}]
+    )
+    step: Exact | None = Field(default=None, description=_LEFT_OUT, examples=["1/10"])
     reward: Expression = Field(description="The reward, in the letters of the state and the action.")
     gradient: tuple[Exact, ...] = Field(
         min_length=1, max_length=6, description="The gradient of the next value at the next state."

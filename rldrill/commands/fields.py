@@ -32,14 +32,18 @@ def command(
 
         print_json(found.written_schema())
         return
+    from rldrill.problems.exact import PARAMETERS_TOLD
     from rldrill.problems.fields import fields
     from rldrill.render.terminal import console, words
 
     out = console()
     out.print(words((found.name, "bold"), f": {found.summary}"))
     out.print(words(f'A problem file holds family = "{found.name}" and, under [given], these fields.'))
+    listed = fields(found.name)
+    if any("parameter left open" in field.takes for field in listed):
+        out.print(words(f"A parameter left open, or asked for, is one of {PARAMETERS_TOLD}."))
     form = ""
-    for field in fields(found.name):
+    for field in listed:
         if field.form != form:
             form = field.form
             out.print(words("\n", (form or "The other fields:", "bold")))

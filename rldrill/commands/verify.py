@@ -135,6 +135,13 @@ def command(
         report = verify(files, settings, advance)
     unwritten = [said for form, path in wanted if (said := _unwritten(report, form, path, told))]
     _complain(report)
+    people = sum(1 for student in report.students if student.paths)
+    if people > 1 and "gradescope" in {form for form, _ in wanted}:
+        typer.echo(
+            f"rldrill: gradescope's report is of one submission, and {people} students stand in these files; it holds "
+            "what is said of any of them. Verify one submission at a time.",
+            err=True,
+        )
     if json:
         from rldrill.grading.reports.data import written
 

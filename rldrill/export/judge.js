@@ -469,9 +469,21 @@ const Judge = (() => {
     const off = subtract(divide(a, b), whole(1)); // exactly, where both are: 0.17 is 2 % off 1/6
     return isExact(off) ? abs(off[0]) * 50n <= off[1] : Math.abs(off) <= 1 / 50;
   };
+  // Whether a number is the key, rounded or cut off where its own digits end, which are fewer than three
+  const isShort = (reading, keyText, parameters) => {
+    const [a, b] = [reading.value, new Parser(keyText, parameters).all()].map((value) => value(pointOf(0)));
+    if (!isExact(a)) return false;
+    let places = 0;
+    while (places < 10 && (10n ** BigInt(places) * a[0]) % a[1] !== 0n) places += 1;
+    const scale = 10n ** BigInt(places);
+    if ((scale * a[0]) % a[1] !== 0n || abs(a[0]) * scale >= 100n * a[1]) return false;
+    const gap = subtract(a, b);
+    return isExact(gap) ? abs(gap[0]) * scale < gap[1] : Math.abs(gap) * Number(scale) < 1;
+  };
 
   const TOLD = {
-    right: "Right.", close: "Right idea; give an exact value or three digits.", wrong: "Not right.",
+    right: "Right.", short: "Right idea; give an exact value or three digits.", wrong: "Not right.",
+    close: "Close, but not right: look for a slip, or for numbers that were rounded on the way.",
     some: "Not right at {}; the rest is right.", choose: "Choose an answer.", comma: false,
   };
 
@@ -499,7 +511,8 @@ const Judge = (() => {
     const made = task.mistakes.find((mistake) => ifRead(() => mistake.cells.every((key, index) => fits(index, key))));
     if (made) return { outcome: "misconception", says: made.says, read: made.read, wrong };
     if (wrong.every((index) => !task.cells[index].words && closeTo(readings[index], task.cells[index].key, task.parameters))) {
-      return { outcome: "close", says: told.close, wrong };
+      const short = wrong.every((index) => isShort(readings[index], task.cells[index].key, task.parameters));
+      return { outcome: "close", says: short ? told.short : told.close, wrong };
     }
     const names = wrong.map((index) => task.cells[index].name).filter(Boolean);
     const some = names.length && names.length < task.cells.length;

@@ -59,7 +59,8 @@ _WORDS = {
         language="{} (0.667, wenn diese Seite auf Englisch eingestellt ist)",
         verdicts={
             "right": "Richtig.",
-            "close": "Fast; gesucht ist ein exakter Wert, oder drei richtige Ziffern.",
+            "short": "Fast; gesucht ist ein exakter Wert, oder drei richtige Ziffern.",
+            "close": "Fast, aber nicht richtig: Suchen Sie einen Fehler, oder was unterwegs gerundet wurde.",
             "wrong": "Nicht richtig.",
             "some": "Nicht richtig bei {}; der Rest stimmt.",
             "choose": "Wählen Sie eine Antwort.",

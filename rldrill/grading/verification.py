@@ -1,8 +1,10 @@
 """Judges files of answers: the library under ``rldrill verify``."""
 
 import os
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -127,6 +129,10 @@ class _Student(Struct):
     said: dict[str, None] = field(default_factory=dict)
 
 
+def _names(student: str, number: str) -> set[str]:
+    return {without_zeros(name) for name in (student, number) if name}
+
+
 class _Clock:
     """The time that one student has; solving the problems of an exam, which everybody has, is not counted."""
 
@@ -187,13 +193,20 @@ class _Run:
 
     def _unread(self, sitting: Sitting) -> str:
         """What is known of somebody of whom nothing was read: whether they handed in something all the same."""
-        names = {without_zeros(name) for name in (sitting.student, sitting.number) if name}
+        names = _names(sitting.student, sitting.number)
         unreadable = [each for each in self._refused if each.exit_code == FileError.exit_code]
-        if any({without_zeros(each.student), without_zeros(each.number)} & names for each in unreadable):
+        theirs = set().union(*(_names(each.student, each.number) for each in unreadable)) & names
+        if any(self._shared[name] == 1 for name in theirs):
             return UNREAD
-        if any(each.line is None and not each.student for each in unreadable):
+        if theirs or any(each.line is None and not each.student for each in unreadable):
             return PERHAPS
-        return ELSEWHERE if self._unknown else ""
+        return ELSEWHERE if any(without_zeros(name) not in self._shared for name in self._unknown) else ""
+
+    @cached_property
+    def _shared(self) -> Counter[str]:
+        """How many on the roster have a name or number."""
+        people = () if self._assignment is None else self._assignment.people
+        return Counter(name for each in people for name in _names(each.student, each.number))
 
     def order(self, students: Sequence[_Student]) -> list[int]:
         """The numbers of the students, those of a version one after the other: only its problems are kept meanwhile."""

@@ -7,7 +7,7 @@ from rldrill.print.solved import solved_part
 from rldrill.print.words import words
 from rldrill.print.worksheet import options
 from rldrill.render.mathematics.typst import plain, text
-from rldrill.render.typst import document
+from rldrill.render.typst import document, long_or_not
 
 
 def key_source(exam: Exam, version: Version) -> str:
@@ -25,5 +25,6 @@ def _solved(exam: Exam, index: int, exercise: Exercise) -> str:
         f"{solved_part(exam, exercise, part)}"
         for part in exercise.parts
     )
-    question = f"#asked-short[{document(exercise.question())}]\n"
-    return f"{heading(exam, index, exercise, identified=True)}{question}{parts}"
+    question = exercise.question()
+    stated = f"#asked-short([{document(question)}]{long_or_not(question)})\n"
+    return f"{heading(exam, index, exercise, identified=True)}{stated}{parts}"

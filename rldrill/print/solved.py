@@ -15,7 +15,7 @@ from rldrill.problems.mathematics import EMPTY, Math, name
 from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.render.mathematics.typst import equation, plain, quoted, text
-from rldrill.render.typst import block, document, line
+from rldrill.render.typst import block, document, line, long_or_not
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
@@ -31,16 +31,19 @@ def solved_part(exam: Exam, exercise: Exercise, part: Part) -> str:
     """The answer of a part, then how it is found and what else is answered."""
     told = words(exam.head.language)
     worth = plain(written_points(told, part.points))
-    answer = f"#answer-block([{label(exercise, part.label)}], [{_answer(exercise, part, told)}], [{worth}])\n"
+    written, long = _answer(exercise, part, told)
+    answer = f"#answer-block([{label(exercise, part.label)}], [{written}], [{worth}]{long})\n"
     working = "".join(_earned(blocks, points) for blocks, points in exercise.scheme(part.label))
     return answer + working + _mistakes(exercise, part, told)
 
 
-def _answer(exercise: Exercise, part: Part, told: Words) -> str:
+def _answer(exercise: Exercise, part: Part, told: Words) -> tuple[str, str]:
+    """The answer to a part as Typst markup, and the argument that breaks a long one across pages."""
     if isinstance(part.kind, Choice):
         letter = answer_kind(part.kind).write(exercise.solution.answers[part.label])
-        return text(f"({letter}) {part.kind.options[letter]}")
-    return block(answer_block(exercise, part, told))
+        return text(f"({letter}) {part.kind.options[letter]}"), ""
+    answer = answer_block(exercise, part, told)
+    return block(answer), long_or_not((answer,))
 
 
 def answer_block(exercise: Exercise, part: Part, told: Words) -> Equation:
@@ -59,7 +62,7 @@ def _earned(blocks: tuple[Block, ...], points: int) -> str:
     if not points:
         return document(blocks)
     *before, last = blocks
-    return f"{document(tuple(before))}#earning([{points}])[{block(last)}]\n"
+    return f"{document(tuple(before))}#earning([{points}], [{block(last)}]{long_or_not((last,))})\n"
 
 
 def _mistakes(exercise: Exercise, part: Part, told: Words) -> str:

@@ -13,7 +13,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Part
 from rldrill.render.mathematics.typst import equation, plain, text
-from rldrill.render.typst import document
+from rldrill.render.typst import document, long_or_not
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import minutes_of
@@ -27,6 +27,8 @@ _PER_LINE = 14
 _OPTIONS, _LINE, _BETWEEN = 4, 108, 8
 #: How wide the cells for answers are, and how many stand side by side at most; wider for answers with letters in them.
 _NARROW, _WIDE = ("2.4cm", 5), ("5.2cm", 3)
+#: A table of more lines for answers is broken across pages.
+_LONG_TABLE = 9
 
 
 def worksheet_source(exam: Exam, version: Version) -> str:
@@ -69,8 +71,9 @@ def _problem(exam: Exam, version: Version, index: int) -> str:
     if index == 1 and len(exercise.parts) == 2:  # the page would be left to the title
         kept = ()
     asked = "".join(_part(exam, exercise, part, together=part in kept) for part in exercise.parts)
-    question = document(exercise.question())
-    return f"{heading(exam, index, exercise, identified=exam.layout.ids)}#statement[{question}]\n{asked}"
+    question = exercise.question()
+    stated = f"#statement([{document(question)}]{long_or_not(question)})\n"
+    return f"{heading(exam, index, exercise, identified=exam.layout.ids)}{stated}{asked}"
 
 
 def _part(exam: Exam, exercise: Exercise, part: Part, *, together: bool) -> str:
@@ -79,8 +82,9 @@ def _part(exam: Exam, exercise: Exercise, part: Part, *, together: bool) -> str:
     if exam.layout.solutions == "inline":
         return f"{ask}{options(part)}{solved_part(exam, exercise, part)}"
     space = space_of(exercise, part, exam.layout.space)
-    kept = "(together: true)" if together else ""
-    return f"{ask}#working({float(space):.1f}cm, {float(space):.1f})\n#field{kept}[{_field(exercise, part, told)}]\n"
+    field, long = _field(exercise, part, told)
+    kept = ", long: true" if long else ", together: true" if together else ""
+    return f"{ask}#working({float(space):.1f}cm, {float(space):.1f})\n#field([{field}]{kept})\n"
 
 
 def space_of(exercise: Exercise, part: Part, space: str) -> Fraction:
@@ -102,21 +106,26 @@ def options(part: Part) -> str:
     return f"#choices({math.ceil(len(lines) / rows)}, {', '.join(f'[{text(line)}]' for line in across)})\n"
 
 
-def _field(exercise: Exercise, part: Part, told: Words) -> str:
+def _field(exercise: Exercise, part: Part, told: Words) -> tuple[str, bool]:
+    """The place for an answer, and whether it is broken across pages."""
     match part.kind:
         case parts.Matrix(rows, columns) if rows * columns > 1:
-            return f"#empty-matrix([{plain(told.answer)}], {rows}, {columns})"
+            return f"#empty-matrix([{plain(told.answer)}], {rows}, {columns})", False
         case parts.Choice():
-            return options(part)
+            return options(part), False
         case parts.YesNo():
-            return f"#checkbox #h(0.4em) {plain(told.yes)} #h(2em) #checkbox #h(0.4em) {plain(told.no)}"
+            return f"#checkbox #h(0.4em) {plain(told.yes)} #h(2em) #checkbox #h(0.4em) {plain(told.no)}", False
         case kind:
             lines = answer_kind(kind).lines(exercise.solution.answers[part.label])
             lefts = all_in_notation([left for left, _ in lines if left is not None])
             names = [f"[{equation(left)}]" for left in lefts]
             cell, most = _WIDE if exercise.solution.problem.parameters else _NARROW
-            table = f"#empty-table({even_columns(len(names), most)}, {cell}, {', '.join(names)})"
-            return table if names else f"#answer-line([{plain(told.answer)}])"
+            if not names:
+                return f"#answer-line([{plain(told.answer)}])", False
+            columns = even_columns(len(names), most)
+            long = math.ceil(len(names) / columns) > _LONG_TABLE
+            table = "long-table" if long else "empty-table"
+            return f"#{table}({columns}, {cell}, {', '.join(names)})", long
 
 
 def even_columns(cells: int, most: int) -> int:

@@ -66,8 +66,8 @@ class PartRecord(Struct):
 
     @property
     def begun(self) -> bool:
-        """Whether anything was answered, skipped or looked up."""
-        return self.state is not State.OPEN or bool(self.answers)
+        """Whether anything was answered, so that it counts, or skipped or looked up."""
+        return self.state is not State.OPEN or bool(self.counted)
 
     @property
     def first_time(self) -> bool:

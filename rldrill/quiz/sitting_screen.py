@@ -17,6 +17,7 @@ from rldrill.problems.document import counted
 from rldrill.problems.errors import reason
 from rldrill.problems.parts import Part
 from rldrill.quiz.display import Display
+from rldrill.quiz.keys import COMMANDS
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.shapes import how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
@@ -41,6 +42,8 @@ _HELP = (
     (":back", "to the part before, where 'back' is an answer; so for all of these"),
 )
 _COMMANDS = frozenset(("", "next", "back", "overview", "problem", "clear", "hand in", "leave", "?", "help"))
+#: What is wrong with an answer that nobody can read.
+_UNREAD = "it cannot be read and"
 #: The title of a problem with the lines around it, and the prompt.
 _BESIDES = 5
 #: The last seconds are told one by one.
@@ -133,7 +136,7 @@ class SittingScreen:
                 shown = place.problem
             self._part(sitting, place)
             try:
-                text = self._ask(partial(self._prompt, sitting, place)).strip()
+                text = self._ask(partial(self._prompt, sitting, place), "?").strip()
             except EOFError:
                 self._print()
                 return False
@@ -146,9 +149,7 @@ class SittingScreen:
             if command == "leave":
                 return False
             if command is None:
-                sitting.answer(place, text)
-                self._keep(sitting)
-                at += self._is_read(sitting, place, text)
+                at += self._answered(sitting, place, text)
             elif command == "hand in":
                 at = len(places)
             elif command == "problem":
@@ -163,6 +164,8 @@ class SittingScreen:
             elif command in ("", "next"):
                 at += 1
             elif command == "back":
+                if at == 0:
+                    self._print(words(("  This is the first part.", "yellow")))
                 at = max(0, at - 1)
             elif match := _GO.fullmatch(command):
                 at = self._found(places, match, at)
@@ -210,13 +213,27 @@ class SittingScreen:
         self._print(words((f"  There is no part {match[1]}{match[2] or ''}.", "yellow")))
         return at
 
-    def _is_read(self, sitting: Sitting, place: Place, text: str) -> bool:
-        """Whether an answer can be read, which is said if not; what it is worth is not."""
+    def _answered(self, sitting: Sitting, place: Place, text: str) -> bool:
+        """Keep an answer, and say if it would count as wrong whatever is right; what it is worth is not said.
+
+        A key of the quiz is none, and what cannot be read does not take the place of an answer that can.
+
+        Returns:
+            Whether it goes on.
+        """
         fault, says = _says_why(sitting, place, text)
+        if fault is _UNREAD and text.lower().removeprefix(":") in COMMANDS:
+            self._print(words((f"  There is no {text!r} in an exam: ", "yellow"), _WORDS))
+            return False
+        old = sitting.answers.get(place)
+        kept = fault is not _UNREAD or old is None or _says_why(sitting, place, old)[0] is _UNREAD
+        if kept:
+            sitting.answer(place, text)
+            self._keep(sitting)
         if says:
             says = by_name(says, sitting.part(place).kind)
-            kept = words((f"Kept, but {fault} would count as wrong: ", "yellow"), says)
-            self._display.signed(("?", "yellow"), kept)
+            told = f"Kept, but {fault} would count as wrong: " if kept else "Not kept, since it cannot be read: "
+            self._display.signed(("?", "yellow"), words((told, "yellow"), says))
         return not says
 
     def _problem(self, sitting: Sitting, number: int) -> None:
@@ -302,7 +319,7 @@ def _says_why(sitting: Sitting, place: Place, text: str) -> tuple[str, str]:
     try:
         return "what is missing", what_is_missing(solution, part, read_answer(solution, part, text))
     except Unreadable as error:
-        return "it cannot be read and", error.message
+        return _UNREAD, error.message
 
 
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:

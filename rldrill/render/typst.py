@@ -26,6 +26,9 @@ _IN_CELLS = 0.6
 _WHOLE = 1.2
 #: So far apart, at least, tables stand that each have a sentence above them.
 _BETWEEN = 2.0
+#: What is higher than about half a page is broken across pages; in heights of the type, as are a line of text, a row of
+#: a table, a row with a fraction, and an equation.
+_HALF_PAGE, _LINE, _ROW, _FRACTION, _EQUATION = 36.0, 1.2, 1.4, 1.9, 2.4
 
 PREAMBLE = typst_file("rldrill.render", "blocks.typ") + typst_file("rldrill.render.pictures", "pictures.typ")
 
@@ -42,7 +45,9 @@ def block(item: Block, room: float = PAGE) -> str:
             cells = "".join(f", [{text(cell)}]" for line in rows for cell in line)
             first = ", ".join(f"[{text(cell)}]" for cell in header)
             drawn = f"grid-table({len(header)}, table.header({first}){cells})"
-            return f"#block({drawn})\n" if _width(item) <= room else f"#wide-block({drawn})\n"
+            if _width(item) <= room:
+                return f"#block({drawn})\n"
+            return f"#wide-block({drawn}{long_or_not((item,))})\n"
         case Equation(left, rights, signs):
             if item.is_bare:
                 return _apart(rights, room)
@@ -81,7 +86,31 @@ def _width(item: Block) -> float:
             return math.inf
 
 
+def long_or_not(blocks: Document) -> str:
+    """The argument that breaks blocks across pages; nothing where they are low enough to be kept together."""
+    return ", long: true" if sum(map(_height, blocks)) > _HALF_PAGE else ""
+
+
+def _height(item: Block) -> float:
+    """How high a block is, about, in heights of the type; nothing for a picture, which is never broken."""
+    match item:
+        case Paragraph() | Heading():
+            return _LINE * math.ceil(_SIGN * len(unicode_text(item)) / PAGE)
+        case Table():
+            return sum(_FRACTION if "/" in line else _ROW for line in unicode_text(item).splitlines())
+        case Equation(_, rights) if item.is_bare and _stands_in_a_line(rights):
+            return _EQUATION * sum(map(width, rights)) / PAGE
+        case Equation(_, rights):
+            return _EQUATION * len(rights)
+        case Beside(blocks):
+            return max(map(_height, blocks))
+        case _:
+            return 0.0
+
+
 def _side_by_side(blocks: Document, room: float) -> str:
+    if long_or_not((Beside(blocks),)):
+        return "".join(block(item, room) for item in blocks)
     fits = sum(map(_width, blocks)) + _GAP * (len(blocks) - 1) <= _WHOLE * room
     bodies = (picture(item, shrinks=not fits) if isinstance(item, Picture) else block(item, room) for item in blocks)
     inside = ", ".join(f"[{body}]" for body in bodies if body)  # a picture that is too large is left out
@@ -90,7 +119,7 @@ def _side_by_side(blocks: Document, room: float) -> str:
 
 def _apart(items: tuple[Math, ...], room: float) -> str:
     """Mathematics that stands side by side where there is room."""
-    if all(len(unicode(item)) <= 2 * SHORT for item in items):
+    if _stands_in_a_line(items):
         return f"#flow({', '.join(f'({quoted(unicode(item))}, ${typst(item)}$)' for item in items)})\n"
     return "".join(
         _on_a_line(unicode(item), typst(item))
@@ -98,6 +127,10 @@ def _apart(items: tuple[Math, ...], room: float) -> str:
         else f"#chain({quoted(unicode(item))}, $$, ($$, {breakable(item)}))\n"
         for item in items
     )
+
+
+def _stands_in_a_line(items: tuple[Math, ...]) -> bool:
+    return all(len(unicode(item)) <= 2 * SHORT for item in items)
 
 
 def document(blocks: Document) -> str:
@@ -115,7 +148,8 @@ def document(blocks: Document) -> str:
             widths = ", ".join(f"{each:.1f}em" for each in item.widths)
             columns = zip(*item.pairs, strict=True)
             sentences, tables = (", ".join(f"[{block(each)}]" for each in column) for column in columns)
-            result.append(f"#announced(({widths}), ({sentences}), ({tables}))\n")
+            long = long_or_not((Beside(tuple(table for _, table in item.pairs)),))
+            result.append(f"#announced(({widths}), ({sentences}), ({tables}){long})\n")
         elif item is not None:
             result.append(block(item))
     return "".join(result)

@@ -7,6 +7,7 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any
 
+from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.document import joined
@@ -25,6 +26,10 @@ _ROOM = 4
 #: So many of the entries that were left out are named.
 _NAMED = 3
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
+_SHORT = "Right idea; give an exact value or three digits."
+_CLOSE = "Close, but not right: look for a slip, or for numbers that were rounded on the way."
+#: The units of the last digit of short decimals, the largest first.
+_UNITS = tuple(fmpq(1, 10**places) for places in range(10))
 #: A line of a working that says what it works out: the head of the name and its index, R and 0 of R_0^(2) = 2.
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)(?:_?\{?([0-9]+))?[^=:≈\n]*+[=:≈]")
 #: A name that can be no number.
@@ -206,8 +211,9 @@ def _judge(
         says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
         return Verdict(Outcome.MISCONCEPTION, says, earned, read, made, named, value, told)
     if all(_is_close(cells[name], key[name]) for name in wrong):
-        cut = all(_is_cut_off(cells[name], key[name]) for name in wrong)
-        says = _CUT_OFF if cut else "Right idea; give an exact value or three digits."
+        cut = [_is_cut_off(cells[name], key[name]) for name in wrong]
+        short = all(done or _is_short(cells[name], key[name]) for name, done in zip(wrong, cut, strict=True))
+        says = _CUT_OFF if all(cut) else _SHORT if short else _CLOSE
         return Verdict(Outcome.CLOSE, says, earned, read, (), named, value)
     return Verdict(Outcome.WRONG, _says_wrong(named, len(key)), earned, read, made, named, value)
 
@@ -300,6 +306,16 @@ def _is_close(cell: Cell, key: Value) -> bool:
         return False
     rounded = cell.decimal or (is_rational(cell.value) and cell.value.q == 1)
     return rounded and is_close(cell.value, key)
+
+
+def _is_short(cell: Cell, key: Value) -> bool:
+    """Whether a number is the key, rounded or cut off where its own digits end, which are fewer than three."""
+    if not isinstance(cell, Reading) or not is_rational(cell.value):
+        return False
+    unit = next((unit for unit in _UNITS if (cell.value / unit).q == 1), None)
+    if unit is None or abs(cell.value) >= 100 * unit:
+        return False
+    return sign(unit - absolute(key - cell.value)) > 0
 
 
 def _is_cut_off(cell: Cell, key: Value) -> bool:

@@ -204,7 +204,7 @@ def most_paid(given: Optimal, work: Work) -> None:
 
 @slip(
     "wrong-fixed-policy",
-    "These are the values of the policy that always takes the first action; in some state another one is better.",
+    "This comes of the policy that always takes the first action; in some state another one is better.",
     when=lambda given: isinstance(given, Optimal),
 )
 def first_actions(given: Optimal, work: Work) -> None:
@@ -214,7 +214,7 @@ def first_actions(given: Optimal, work: Work) -> None:
 
 @slip(
     "mean-for-max",
-    "These are the values of choosing at random; the optimal value takes the best action in every state.",
+    "This comes of choosing at random; the optimal value takes the best action in every state.",
     when=lambda given: isinstance(given, Optimal),
 )
 def at_random(given: Optimal, work: Work) -> None:

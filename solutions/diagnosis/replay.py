@@ -14,7 +14,7 @@ from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, TooLong, leng
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.rational import RationalFunction
+from rldrill.solutions.rational import RationalFunction, linear
 from rldrill.solutions.solution import solver
 from rldrill.solutions.work import Step, Work
 
@@ -245,7 +245,10 @@ class Replay(Work):
     def equate(self, letter: str, left: Any, right: Any, **_of: Any) -> Any:
         """The unknown, as somebody gets it who errs in solving the equation, whatever it may be."""
         number, self.solved = self.solved, self.solved + 1
-        return self.change.equated[number] if number in self.change.equated else super().equate(letter, left, right)
+        if number in self.change.equated:
+            return self.change.equated[number]
+        linear(left - right, letter)  # what is changed into an equation of higher degree is left
+        return super().equate(letter, left, right)
 
     def _applied(
         self, formula: Formula, unknown: type[Quantity], cases: Sequence[Mapping[str, Any]], named: Mapping[str, Any]

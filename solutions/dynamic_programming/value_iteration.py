@@ -156,7 +156,7 @@ def paid_twice(given: Given, work: Work) -> None:
 
 @slip(
     "one-sweep-short",
-    "These are the values after one sweep less than is asked for: every sweep looks one step further ahead.",
+    "This comes of one sweep less than is asked for: every sweep looks one step further ahead.",
     when=lambda given: isinstance(given, Swept),
 )
 def stopped_early(given: Swept, work: Work) -> None:

@@ -291,6 +291,9 @@ def test_a_slip_costs_once() -> None:
     assert follows.credit == 1
 
 
+_CLOSE = "Close, but not right: look for a slip, or for numbers that were rounded on the way."
+
+
 def test_close_says_so_and_earns_nothing() -> None:
     solution = problem("return", rewards=[1, 1, 1], gamma="1/3", time=0)  # 13/9 = 1.444…
     verdict = judge(solution, "a", "1.46")
@@ -349,7 +352,8 @@ def test_an_action_in_a_terminal_state_may_be_given_its_zero() -> None:
     ("text", "says"),
     [
         ("1.44", "Right."),  # 13/9 = 1.4444…
-        ("1.43", "Right idea; give an exact value or three digits."),
+        ("1.43", _CLOSE),  # three digits, and not those of the key
+        ("1.46", _CLOSE),
         ("10/7", "Not right."),  # 1.4286: nobody rounds to that
         ("sqrt(2)", "Not right."),
     ],
@@ -357,6 +361,17 @@ def test_an_action_in_a_terminal_state_may_be_given_its_zero() -> None:
 def test_what_is_close_is_told_why(text: str, says: str) -> None:
     solution = problem("return", rewards=[1, 1, 1], gamma="1/3", time=0)  # 13/9
     assert judge(solution, "a", text).says == says
+
+
+@pytest.mark.parametrize(
+    ("typed", "short"),
+    # 20 and 8 have no more digits; 12.1 is rounded to 12
+    [("19.9, 12.1, 8", False), ("20, 12.2, 8", False), ("20, 12.1, 7.9", False), ("20, 12, 8", True)],
+)
+def test_only_digits_of_the_key_are_called_too_few(typed: str, short: bool) -> None:
+    # R₂ = 8, R₁ = 81/10 + 1/2·8 = 121/10, R₀ = 279/20 + 1/2·121/10 = 20
+    solution = problem("return", rewards=["279/20", "81/10", 8], gamma="1/2")
+    assert judge(solution, "a", typed).says.endswith("three digits." if short else "on the way.")
 
 
 @pytest.mark.parametrize(("text", "cut"), [("0.219, 0.780", True), ("0.217, 0.78", False)])
@@ -417,7 +432,6 @@ def test_a_working_of_several_lines_is_worth_what_its_last_line_says_of_what_is_
 #: V(a) = 4/3 = 1.333…, V(b) = 8/3 = 2.666…, V(c) = 3.
 _LOOPS = [["a", "x", "a", 1, "2/3"], ["b", "x", "b", 1, "4/3"], ["c", "x", "c", 1, "3/2"]]
 _CUT = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
-_CLOSE = "Right idea; give an exact value or three digits."
 
 
 @pytest.mark.parametrize(

@@ -136,7 +136,7 @@ def test_the_page_reads_every_answer_that_it_holds(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("typed", "outcome", "says"),
-    [("-5*cos(1)", "right", "Right."), ("-2.70", "right", "Right."), ("-2.69", "close", "Right idea"),
+    [("-5*cos(1)", "right", "Right."), ("-2.70", "right", "Right."), ("-2.69", "close", "Close, but"),
      ("5cos(1)", "misconception", "The sign."), ("sin(1)^2", "misconception", "A sine."), ("7", "wrong", "Not right.")],
 )  # fmt: skip
 def test_a_wrong_answer_that_has_no_value_keeps_no_other_from_being_told(typed: str, outcome: str, says: str) -> None:
@@ -278,6 +278,17 @@ def test_what_lies_two_percent_off_is_close_the_bound_included(key: str, typed: 
     one = {"parameters": [], "cells": [{"name": "", "key": key}], "mistakes": []}
     assert judged(one, [typed])["outcome"] == outcome
     assert is_close(read_number(typed).value, read_number(key).value) == (outcome == "close")
+
+
+@pytest.mark.parametrize(
+    ("key", "typed", "short"),
+    [("20", "19.9", False), ("25/2", "12.6", False), ("8", "7.9", False), ("13/9", "1.43", False),
+     ("121/10", "12", True), ("10/7", "1.4", True), ("-1/2", "-0.51", False),
+     ("pi", "3.1", True), ("pi", "3.13", False)],
+)  # fmt: skip
+def test_only_digits_of_the_key_are_called_too_few(key: str, typed: str, short: bool) -> None:
+    one = {"parameters": [], "cells": [{"name": "", "key": key}], "mistakes": []}
+    assert judged(one, [typed])["says"].endswith("three digits." if short else "on the way.")
 
 
 @pytest.mark.parametrize("typed", ["10^400", "-10^350", "γ*10^320"])

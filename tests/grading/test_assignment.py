@@ -226,6 +226,17 @@ def test_whoever_may_have_handed_in_is_not_said_to_have_handed_in_nothing(tmp_pa
     assert "perhaps it is under one that is not on the roster" in student(report, "Ben Ali").unread
 
 
+def test_of_two_of_one_name_nobody_is_said_to_have_handed_in_for_certain(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("student,number\nJohn Smith,15\nJohn Smith,16\nAnn,17\n", encoding="utf-8")
+    report = graded(tmp_path, [("John Smith", "", "1", "a", "1")], Assignment(path, roster=roster))
+    (refusal,) = report.refused
+    assert refusal.says.endswith("several students on the roster are called 'John Smith'; give the number.")
+    perhaps = "nothing was read; perhaps one of the files that could not be read"
+    assert [each.unread for each in report.students] == [perhaps, perhaps, ""]
+
+
 def test_the_roster_that_an_exam_was_printed_from_will_do(tmp_path: Path) -> None:
     path, made = exam(tmp_path, roster=TWO)
     roster = tmp_path / "roster.csv"

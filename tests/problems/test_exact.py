@@ -102,3 +102,9 @@ def test_a_text_is_read_and_the_zero_byte_stays_one(text: str, number: Fraction)
 def test_a_text_that_is_no_number_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match=r"."):
         fraction_of(text)
+
+
+@pytest.mark.parametrize("letter", ["r", "a", "r2", "g"])
+def test_who_leaves_another_letter_open_is_told_which_there_are(letter: str) -> None:
+    with pytest.raises(ValueError, match=r"letter that may be left open; these are gamma, .* w and x$"):
+        read_scalar(letter)

@@ -91,7 +91,9 @@ def test_a_later_part_follows_the_earlier_answer_that_was_given_last() -> None:
 def test_a_session_counts_the_problems_that_were_begun() -> None:
     begun, _, second = record()
     begun.answer(second, "3")
-    assert Session(2, [begun, Record.of(EXERCISE)]).parts == begun.parts
+    unread, first, _ = record()
+    unread.answer(first, "?!")  # not understood, and not counted
+    assert Session(3, [begun, unread, Record.of(EXERCISE)]).parts == begun.parts
 
 
 def test_what_the_diagnosis_finds_is_kept_where_no_listed_mistake_gives_the_answer(

@@ -110,8 +110,9 @@ def test_nothing_is_judged_before_it_is_handed_in(sitting: Sitting) -> None:
 
 def test_back_and_change_and_go_to_a_part(sitting: Sitting) -> None:
     a, b, last = right(sitting)
-    handed_in, text, _ = sit(sitting, "1", "2", "back", b, "go 1a", a, "go 9", "go 2", last, "yes")
+    handed_in, text, _ = sit(sitting, "back", "1", "2", "back", b, "go 1a", a, "go 9", "go 2", last, "yes")
     assert handed_in
+    assert text.count("This is the first part.") == 1
     assert "There is no part 9." in text
     assert "your answer so far: 2" in text
     assert "3 of 3 points" in text
@@ -138,6 +139,35 @@ def test_what_cannot_be_read_is_said_and_asked_again(sitting: Sitting) -> None:
     _, text, hand = sit(sitting, "banana", "1", "leave")
     assert "Kept, but it cannot be read and would count as wrong" in text
     assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b"]
+
+
+@pytest.mark.parametrize("typed", ["h", "hint", "quit", "s", ":q"])
+def test_a_key_of_the_quiz_is_no_answer(sitting: Sitting, typed: str) -> None:
+    a, *_ = right(sitting)
+    _, text, hand = sit(sitting, typed, a, "back", typed, "leave")
+    assert f"There is no '{typed}' in an exam: " in text
+    assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b", "1a", "1a"]
+    assert sitting.answers == {Place(0, 0): a}
+
+
+def test_what_cannot_be_read_does_not_take_the_place_of_what_can(sitting: Sitting) -> None:
+    a, *_ = right(sitting)
+    _, text, _ = sit(sitting, "banana", "apple", a, "back", "banana", "leave")
+    assert text.count("Kept, but it cannot be read") == 2
+    assert text.count("Not kept, since it cannot be read") == 1
+    assert text.count(f"your answer so far: {a}") == 2
+    assert sitting.answers == {Place(0, 0): a}
+
+
+def test_a_letter_that_can_be_the_answer_is_no_key_of_the_quiz(tmp_path: Path) -> None:
+    # policies of this model name the actions s and h
+    moves = [["A", "s", "end", 1, 1], ["A", "h", "end", 1, 2]]
+    given = {"gamma": 1, "sweeps": 1, "mdp": {"transitions": moves, "terminal": ["end"]}}
+    (tmp_path / "own.json").write_text(json.dumps({"family": "value-iteration", "given": given}), encoding="utf-8")
+    planned = plan(Blueprint(problems=(Entry(file=str(tmp_path / "own.json")),), seed=1))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
+    sit(sitting, "2", "h", "leave")
+    assert sitting.answers == {Place(0, 0): "2", Place(0, 1): "h"}
 
 
 def test_what_is_missing_is_said_and_asked_again_and_counts_as_wrong(tmp_path: Path) -> None:

@@ -190,6 +190,15 @@ def test_a_wide_table_is_shrunk(tmp_path: Path) -> None:
     assert_inside(pdf(SETUP + block(Table(line, (line, line)))), tmp_path, 2)
 
 
+def test_a_table_that_is_too_wide_and_too_long_is_set_in_smaller_type_and_broken(tmp_path: Path) -> None:
+    line = ("a long cell",) * 12
+    data = pdf(SETUP + block(Table(line, (line,) * 99)))
+    assert_inside(data, tmp_path, 2)
+    found = [word for word in words_of(data, tmp_path) if word.text == "cell"]
+    assert len(found) == 12 * (99 + max(word.page for word in found))  # a head on every page
+    assert all(word.bottom < word.height - 2 * CENTIMETRE for word in found)
+
+
 _TABLE = Table(("$s$", "$V(s)$"), (("low", "1"), ("high", "2")))
 
 
