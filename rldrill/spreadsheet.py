@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from rldrill.files import shown
+from rldrill.problems.document import counted
 from rldrill.problems.errors import FileError
 
 #: What other programs call the columns, and the two halves of a name.
@@ -88,10 +89,10 @@ def _record(header: Sequence[str], fields: Sequence[str], where: str) -> dict[st
     whole = " ".join(filter(None, (_half(found, _FIRST), _half(found, _LAST))))
     found = {"student": whole} | found if whole else found
     if len(fields) != len(header):
-        found["says"] = (
-            f"{where}: {len(fields)} fields where the first line names {len(header)}; "
-            "put an answer that holds the separator in double quotes."
-        )
+        cure = "put an answer that holds the separator in double quotes"
+        if len(fields) < len(header):
+            cure = "an empty one needs its separator, too"
+        found["says"] = f"{where}: {counted(len(fields), 'field')} where the first line names {len(header)}; {cure}."
     return found
 
 
