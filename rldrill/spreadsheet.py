@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from rldrill.files import shown
+from rldrill.problems.document import counted
 from rldrill.problems.errors import FileError
 
 #: What other programs call the columns, and the two halves of a name.
@@ -22,7 +23,6 @@ _FIRST = ("first name", "first", "firstname", "given name", "vorname")
 _LAST = ("last name", "last", "lastname", "surname", "family name", "nachname")
 _AS_TEXT = re.compile(r'\A="(.*)"\Z', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
 _MARKED = re.compile(r"\A'(?=[=+\-@\d.(\[])(?!.*'$)", re.DOTALL)  # and so, as our own reports do
-_TOO_FEW = "fill the line up with separators, or take it out."
 #: A file has no more bytes, so neither has a field: an answer that is too long is judged, and costs only itself.
 csv.field_size_limit(10**7)
 _SEPARATED = re.compile(r"\s*\"?sep=([^\r\n\"])\"?[,;\t]*\r?\n", re.IGNORECASE)
@@ -89,10 +89,10 @@ def _record(header: Sequence[str], fields: Sequence[str], where: str) -> dict[st
     whole = " ".join(filter(None, (_half(found, _FIRST), _half(found, _LAST))))
     found = {"student": whole} | found if whole else found
     if len(fields) != len(header):
-        found["says"] = (
-            f"{where}: {len(fields)} field{'s' * (len(fields) > 1)} where the first line names {len(header)}; "
-            + ("put an answer that holds the separator in double quotes." if len(fields) > len(header) else _TOO_FEW)
-        )
+        cure = "put an answer that holds the separator in double quotes"
+        if len(fields) < len(header):
+            cure = "an empty one needs its separator, too"
+        found["says"] = f"{where}: {counted(len(fields), 'field')} where the first line names {len(header)}; {cure}."
     return found
 
 

@@ -43,7 +43,7 @@ def test_what_grading_reads_of_spreadsheets_is_read_here_too(tmp_path: Path) -> 
     ("text", "sentence"),
     [
         ("Ann,17\n", "line 1: the column 'name' is missing; the first line names the columns: name,number"),
-        ("name,number\nAnn\n", "line 2: 1 field where the first line names 2"),
+        ("name,number\nAnn\n", "line 2: 1 field where the first line names 2; an empty one needs its separator, too."),
         ("name,number\nAnn,\n", "line 2: the name or the number is missing"),
         ("name,number\nAnn,1\nBob,1\n", "line 3: the number 1 stands there twice"),
         ("name,number\nAnn,é1\nBob,E\u03011\n", "line 3: the number É1 stands there twice"),
