@@ -98,3 +98,16 @@ def test_improvement_ends_in_the_policy_that_it_gives() -> None:
         best = solution.answers["b"]
         told = " and ".join(f"{actions[0]} in {state}" for state, actions in best.items())
         assert f"So $π_{{1}}$ is {told}." in notes(solution)
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_what_is_asked_tells_two_slips_apart(level: int) -> None:
+    for seed in range(25):
+        sarsa = draw("sarsa", level, seed).problem.given
+        run = sarsa.trajectory
+        for state, action in zip(run.states[1:], run.actions[1:], strict=False):
+            row = sarsa.values[state]
+            assert -row[action] != max(row.values())  # a lost sign, and Q-learning's maximum
+        assert draw("rbf", level, seed).problem.given.sigma != 2  # 2σ and σ²
+        tasks = draw("maml-step", level, seed).problem.given.tasks
+        assert {task.curvature for task in tasks} != {2}  # c left out, and the 2 of the power
