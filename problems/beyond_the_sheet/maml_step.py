@@ -61,9 +61,15 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One task; then more, or first-order MAML, too; then α left open, or the θ that stays, or β from what follows."""
-    if level == 3:
-        return rng.choice((_open, _staying, _step_sought))(rng)
+    """One task; then more, or first-order MAML, too; then α left open, or the θ that stays, or β from what follows.
+
+    Not every curvature is 2: without it the gradient is that without the 2 of the power.
+    """
+    given = rng.choice((_open, _staying, _step_sought))(rng) if level == 3 else _stepped(level, rng)
+    return given if any(task.curvature != 2 for task in given.tasks) else draw(level, rng)
+
+
+def _stepped(level: int, rng: Draws) -> Given:
     count, first_order = (1, False) if level == 1 else rng.choice(((2, False), (2, True), (1, True), (3, False)))
     theta, tasks, alpha = _drawn_halved(rng) if level == 1 else _drawn(rng, count)
     beta = Fraction(1, 4) if alpha == Fraction(1, 2) else Fraction(1, 2)

@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.4"
-REVISION = 6
+REVISION = 7
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
 )
@@ -55,7 +55,18 @@ _VISITS = {1: ("ab",), 2: ("aba", "abac", "abcb", "aba.")}
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One transition; then some that come back to a state, or one back from its outcome; then γ after two updates."""
+    """One transition; then some that come back to a state, or one back from its outcome; then γ after two updates.
+
+    A value taken that has lost its sign is not the greatest of its row.
+    """
+    given = _drawn(level, rng)
+    run = given.trajectory if isinstance(given, AlongRun) else None
+    taken = list(zip(run.states[1:], run.actions[1:], strict=False)) if run is not None else []
+    hidden = any(-given.values[state][action] == max(given.values[state].values()) for state, action in taken)
+    return draw(level, rng) if hidden else given
+
+
+def _drawn(level: int, rng: Draws) -> Given:
     if level == 3:
         found = draw_back(rng, draw_setting(rng), 3, _ahead, "gamma", steps=2)
         return Separate(**found if rng.chance(Fraction(3, 4)) else found | {"outcome": None})

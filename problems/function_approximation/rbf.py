@@ -29,7 +29,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
 SOURCE = "Sutton & Barto 2018, section 9.5.5"
-REVISION = 6
+REVISION = 7
 
 
 class Given(Centred):
@@ -95,7 +95,7 @@ def draw(level: int, rng: Draws) -> Given:
     return Given(
         position=centred.position,
         centres=centred.centres,
-        sigma=rng.whole(2, 3) if level == 1 else Fraction(3),
+        sigma=rng.whole(3, 4) if level == 1 else Fraction(3),  # of 2 the square is the double
         theta=tuple(rng.nonzero(-3, 5) for _ in centred.centres) if valued else (),
     )
 

@@ -158,3 +158,14 @@ def test_numbers_whose_mix_up_would_not_show_are_not_the_same(name: str, level: 
     for solution in drawn(name, level):
         numbers = [*map(str, DIFFERENT[name, level](solution))]
         assert len(set(numbers)) == len(numbers)
+@pytest.mark.parametrize("level", [1, 2])
+def test_what_is_asked_tells_two_slips_apart(level: int) -> None:
+    for seed in range(25):
+        sarsa = draw("sarsa", level, seed).problem.given
+        run = sarsa.trajectory
+        for state, action in zip(run.states[1:], run.actions[1:], strict=False):
+            row = sarsa.values[state]
+            assert -row[action] != max(row.values())  # a lost sign, and Q-learning's maximum
+        assert draw("rbf", level, seed).problem.given.sigma != 2  # 2σ and σ²
+        tasks = draw("maml-step", level, seed).problem.given.tasks
+        assert {task.curvature for task in tasks} != {2}  # c left out, and the 2 of the power
