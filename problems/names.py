@@ -4,6 +4,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Callable, Mapping
+from decimal import Decimal
 from functools import lru_cache
 from typing import Any
 
@@ -30,6 +31,11 @@ def once(read: Callable[[Any], object]) -> WrapValidator:
         return table
 
     return WrapValidator(check)
+
+
+def read_whole(value: object) -> int:
+    """A whole number as files have it: 1, "1" or "1.0"."""
+    return int(Decimal(str(value)))
 
 
 def read_name(value: object) -> object:

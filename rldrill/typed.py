@@ -32,7 +32,7 @@ def typed(value: object, what: str) -> str:
         return ", ".join(_pairs(value, what))
     if isinstance(value, list | tuple):
         entries = ", ".join("?" if item is None else _row(item, what) for item in value)
-        return f"[{entries}]" if value else ""
+        return "" if all(item is None for item in value) else f"[{entries}]"
     return _scalar(value, what)
 
 

@@ -25,7 +25,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction, fraction_of
-from rldrill.problems.names import once
+from rldrill.problems.names import once, read_whole
 from rldrill.problems.parts import Number, Part
 
 TITLE = "Piecewise linear RBF"
@@ -42,7 +42,7 @@ class Given(Centred):
     width: Exact | None = Field(
         default=None, description="The distance from its centre at which a feature reaches 0, above 0."
     )
-    known: Annotated[dict[int, Exact], once(int)] = Field(
+    known: Annotated[dict[int, Exact], once(read_whole)] = Field(
         default={},
         max_length=20,
         exclude_if=lambda known: not known,

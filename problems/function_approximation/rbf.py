@@ -23,7 +23,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, WidthField, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.names import once
+from rldrill.problems.names import once, read_whole
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import in_open
 
@@ -39,7 +39,7 @@ class Given(Centred):
     """
 
     sigma: WidthField | None = Field(default=None, description="The width of all features, above 0.")
-    logarithms: Annotated[dict[int, Exact], once(int)] = Field(
+    logarithms: Annotated[dict[int, Exact], once(read_whole)] = Field(
         default={},
         max_length=20,
         exclude_if=lambda known: not known,

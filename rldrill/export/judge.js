@@ -113,7 +113,7 @@ const Judge = (() => {
     log: (x) => finite(Math.log(float(x))),
     sin: (x) => finite(Math.sin(float(x))),
     cos: (x) => finite(Math.cos(float(x))),
-    tan: (x) => finite(Math.tan(float(x))),
+    tan: (x) => finite(Math.abs(Math.cos(float(x))) < 1e-12 ? NaN : Math.tan(float(x))),
   };
 
   // One spelling

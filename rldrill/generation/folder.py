@@ -24,7 +24,7 @@ def seed_of(path: Path) -> int | None:
     except (OSError, ValueError):
         return None
     seed = about.get("seed") if isinstance(about, dict) else None
-    return seed if isinstance(seed, int) else None
+    return seed if type(seed) is int and seed >= 0 else None
 
 
 class Folder:

@@ -1,6 +1,6 @@
 """How progress looks: bars, a calendar, and the mistakes with the command that drills them."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import date
 
 from msgspec import Struct
@@ -81,13 +81,14 @@ def _shares(progress: Progress) -> Table:
     return table
 
 
-def _days(days: Iterable[Day]) -> Table:
+def _days(days: Sequence[Day]) -> Table:
     table = _plain_table(False, False, True, True, True, bar=1)
+    written = "%a %d %b" if len({day.day.year for day in days}) == 1 else "%a %d %b %Y"
     for day in days:
         share = day.right / day.parts
         answers = counted(day.answers, "answer")
         table.add_row(
-            f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, f"half within {_time(day.seconds)}"
+            f"{day.day:{written}}", _bar(share), f"{round(100 * share)} %", answers, f"half within {_time(day.seconds)}"
         )
     return table
 

@@ -299,7 +299,7 @@ def _opened(item: _Item, asked: Asked[Key]) -> Iterator[_Item]:
 def _by_key(items: list[_Item], asked: Asked[Key]) -> dict[Key, Source]:
     """What is typed for each key, in the keys' order."""
     found: dict[Key, Source] = {}
-    *named, last = items
+    *named, last = sorted(items, key=lambda item: not is_end(item.name, asked.keys, asked.ends))
     if named and _REST.fullmatch(last.name) and not is_known(last.name, asked.keys, asked.ends):
         found = _by_key(named, asked)
         return {key: found.get(key, last.value) for key in asked.keys}

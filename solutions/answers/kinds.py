@@ -3,6 +3,7 @@
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from msgspec import Struct
@@ -22,7 +23,7 @@ from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
-    named_alone,
+    names_alone,
     read_choice,
     read_matrix,
     read_number,
@@ -297,9 +298,11 @@ class PolicyAnswer(Answer[parts.Policy]):
             return dict(read_words(text, *asked))
         except Unreadable:
             called = _CALLED.match(text)
-            chosen = named_alone(text[called.end() :] if called else text)
+            named, chosen = names_alone(text[called.end() :] if called else text)
             if self.kind.of or chosen == text:
                 raise
+        with suppress(Unreadable):
+            return dict(read_words(named, *asked))
         return dict(read_words(chosen, *asked))  # whatever the choice is called: a₇ = blue, the blue arm
 
     def value(self, cells: Mapping[str, Any]) -> Any:

@@ -46,7 +46,7 @@ from rldrill.solutions.exact import parameters as parameters_of
 __all__ = [
     "Reading",
     "Unreadable",
-    "named_alone",
+    "names_alone",
     "read_choice",
     "read_matrix",
     "read_number",
@@ -81,6 +81,7 @@ _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _OR = re.compile(r"\A(?:or|oder|/)(?!\w)\s*", re.IGNORECASE)
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 #: What is said around the name of what is chosen: the green arm, model A, left!
+_ARTICLE = re.compile(r"^(?:the|der|die|das)\s+|\s*!*$", re.IGNORECASE)
 _AROUND = re.compile(
     r"^(?:(?:the|der|die|das)\s+)?(?:(?:arm|model|action|policy|method)\s+)?"
     r"|(?:\s+(?:arm|model|action|policy|method|one))?\s*!*$",
@@ -463,9 +464,9 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
         before = typed[: remark.start()]
         if not _names_another(remark[0], _told(before, spellings), spellings):
             typed = before  # large (lower BIC)
-    bare = named_alone(typed)
-    if not matches(typed, spellings) and (_lettered(bare, options) or matches(bare, spellings)):
-        typed = bare
+    for bare in names_alone(typed):
+        if not matches(typed, spellings) and (_lettered(bare, options) or matches(bare, spellings)):
+            typed = bare
     both = _BOTH.fullmatch(typed)
     if both and (lettered := _lettered(both[1], options)):
         told = _told(both[2], spellings)
@@ -487,9 +488,10 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     raise source.unreadable(f"{quoted(source.text)} {fault}; type a letter from {min(options)} to {max(options)}.")
 
 
-def named_alone(text: str) -> str:
-    """A name without the words around it: ``green`` for ``the green arm``."""
-    return _AROUND.sub("", text.strip())
+def names_alone(text: str) -> tuple[str, str]:
+    """A name without its article, ``arm 2`` for ``the arm 2``; and without all words around it, ``green``."""
+    bare = text.strip()
+    return _ARTICLE.sub("", bare), _AROUND.sub("", bare)
 
 
 def _flattened(text: str) -> str:

@@ -54,9 +54,10 @@ def test_one_value_for_all_states(text: str) -> None:
     assert [reading.value for reading in read_table(text, STATES).values()] == [fmpq(1, 5)] * 2
 
 
-@pytest.mark.parametrize("text", ["up: 2/3, others: 1/6", "up = 2/3, all others = 1/6", "up: 2/3; the rest: 1/6"])
+@pytest.mark.parametrize("text", ["up: 2/3, others: 1/6", "up = 2/3, all others = 1/6", "up: 2/3; the rest: 1/6",
+                                  "up: 2/3, others: 1/6, goal: 0"])  # fmt: skip
 def test_what_is_not_named_is_the_rest(text: str) -> None:
-    read = read_table(text, ["left", "up", "right"])
+    read = read_table(text, ["left", "up", "right"], ends=["goal"])
     assert [reading.value for reading in read.values()] == [fmpq(1, 6), fmpq(2, 3), fmpq(1, 6)]
 
 
@@ -121,6 +122,13 @@ def test_percent_behind_each_or_among_parts_of_one() -> None:
 def test_words_around_a_single_choice(text: str) -> None:
     kind = answer_kind(Policy({"next": ("green", "red")}, of=""))
     assert kind.read(text, Allowed()) == {"next": ("green",)}
+
+
+@pytest.mark.parametrize("text", ["arm 2", "the arm 2", "The arm 2!", "next = the arm 2"])
+def test_a_word_around_a_choice_may_be_a_part_of_its_name(text: str) -> None:
+    kind = answer_kind(Policy({"next": ("arm 1", "arm 2")}, of=""))
+    assert kind.read(text, Allowed()) == {"next": ("arm 2",)}
+    assert read_choice(text.removeprefix("next = "), {"A": "arm 1", "B": "arm 2"}) == "B"
 
 
 @pytest.mark.parametrize("text", ["not green", "not the green arm", "the arm", "green (red)"])

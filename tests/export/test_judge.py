@@ -155,6 +155,11 @@ def test_the_page_reads_functions_as_rldrill_writes_them(text: str, value: float
     assert float(engine()(f"said({json.dumps(text)})")) == pytest.approx(value, abs=1e-6)
 
 
+@pytest.mark.parametrize("text", ["tan(pi/2)", "tan(-pi/2)", "tan(5*pi/2)"])
+def test_a_tangent_that_has_no_value_has_none_on_the_page(text: str) -> None:
+    assert engine()(f"said({json.dumps(text)})") == "unreadable"
+
+
 @pytest.mark.parametrize(
     ("typed", "outcome"),
     [("2/3", "right"), ("0.667", "right"), ("0.6662", "right"), ("0.6661", "close"), ("0.66", "close"),

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 from rldrill.cli import app
 from rldrill.exam.selection import MAX_DRAWN
-from rldrill.generation.folder import Folder
+from rldrill.generation.folder import Folder, seed_of
 from rldrill.generation.lots import Lot, Split, lots
 from rldrill.generation.records import Extra, Record
 from rldrill.generation.running import Here, drawn, processes
@@ -126,6 +126,12 @@ def test_a_run_without_a_seed_goes_on_with_that_of_its_folder(tmp_path: Path) ->
     (tmp_path / "broken").mkdir()
     (tmp_path / "broken" / "generate.json").write_text("[]")
     assert "was begun with other arguments" in str(run("broken").exception)
+
+
+@pytest.mark.parametrize(("seed", "read"), [("7", 7), ("true", None), ("-5", None), ('"7"', None)])
+def test_what_is_no_seed_is_none(tmp_path: Path, seed: str, read: int | None) -> None:
+    (tmp_path / "generate.json").write_text(f'{{"seed": {seed}}}')
+    assert seed_of(tmp_path) == read
 
 
 def test_shards_that_begin_a_folder_at_once_share_it(tmp_path: Path) -> None:

@@ -144,6 +144,11 @@ def screen(found: Progress) -> list[str]:
     return [line.rstrip() for line in captured.get().splitlines()]
 
 
+def test_days_of_several_years_have_their_year() -> None:
+    found = Progress((), (day(-400, 1), day(0, 1)), (0,) * 8, (), 0)
+    assert [line[:15] for line in screen(found) if "1 answer" in line] == ["Sun 19 Oct 2025", "Mon 23 Nov 2026"]
+
+
 def test_the_whole_of_it_as_one_would_draw_it() -> None:
     shares = (Share("td", 0.5, 1, 2, 3, 1, 2, 89.4), Share("bellman", 0.0, 0, 3, 0, 0, 0, None))
     mistake = Mistake("forgot-gamma", "td-zero", 2)

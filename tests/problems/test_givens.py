@@ -251,6 +251,7 @@ COINS = {"prior": {"a": "1/2", "b": "1/2"}, "heads": 1, "tails": 1}
             "given.models: 'é'",
         ),
         ("rbf", {"position": 0, "centres": [0, 1], "logarithms": {"1": "-1/2", "01": "-1"}}, "given.logarithms: 1"),
+        ("rbf", {"position": 0, "centres": [0, 1], "logarithms": {"1": "-1/2", "1.0": "-1"}}, "given.logarithms: 1"),
     ],
 )
 def test_no_name_is_given_twice_in_two_spellings(name: str, given: Any, says: str) -> None:
