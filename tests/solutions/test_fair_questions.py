@@ -158,6 +158,8 @@ def test_numbers_whose_mix_up_would_not_show_are_not_the_same(name: str, level: 
     for solution in drawn(name, level):
         numbers = [*map(str, DIFFERENT[name, level](solution))]
         assert len(set(numbers)) == len(numbers)
+
+
 @pytest.mark.parametrize("level", [1, 2])
 def test_what_is_asked_tells_two_slips_apart(level: int) -> None:
     for seed in range(25):
