@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from rldrill.problems.bellman.value_from_action_values import Given
 from rldrill.problems.exact import PARAMETERS, Parameter, Scalar
-from rldrill.solutions.exact import ONE, ZERO, Value, exact, told
+from rldrill.solutions.exact import ONE, ZERO, Value, equals, exact
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.sheet.bellman import (
@@ -74,7 +74,7 @@ def _find(given: Given, work: Work, known: dict[str, Any]) -> None:
         chances = [chance for other in others for chance in given.policy[other].values()]
         if any(isinstance(chance, Parameter) and chance.complement for chance in chances):
             sign = PARAMETERS[letter]
-            work.say(f"With ${sign} = {told(found)}$, $1 − {sign} = {told(ONE - found)}$.")
+            work.say(f"With ${sign} {equals(found)}$, $1 − {sign} {equals(ONE - found)}$.")
         work.answer({other: work.step(V_FROM_Q, s=other, **_known(given, found)) for other in others})
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.exact import Parameter, needed
 from rldrill.problems.policy_gradient.linear_policy import Given
-from rldrill.solutions.exact import Value, exact, sign, told
+from rldrill.solutions.exact import Value, equals, exact, sign, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import greedy
 from rldrill.solutions.numerics import np
@@ -40,7 +40,7 @@ def _by_the_edges(given: Given, work: Work, edges: Mapping[str, Value], gains: M
         rows = tuple(given.features[state])
         behind, ahead = rows if sign(gains[state]) < 0 else rows[::-1]
         place = sign(weight - edge)
-        here, found = f"In {state}, $w = {told(weight)}$", f"${told(edge)}$"
+        here, found = f"In {state}, $w {equals(weight)}$", f"${told(edge)}$"
         if place > 0:
             work.say(f"{here} is above {found}, where {ahead} is greedy: as $w$ grows, it gains on {behind}.")
         elif place < 0:
