@@ -32,9 +32,9 @@ def command(
     names: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="TOPIC|FAMILY[/LEVEL]|ID|FILE",
+            metavar="TOPIC|FAMILY|ID|FILE",
             autocompletion=complete,
-            help="Topics, families, problem IDs or problem files; all families, if none.",
+            help="Topics, families (td-zero/2 is level 2), problem IDs or problem files; all families, if none.",
         ),
     ] = None,
     number: Annotated[

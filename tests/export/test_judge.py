@@ -120,18 +120,16 @@ def test_the_page_judges_as_the_library_does(identity: str) -> None:
 @pytest.mark.parametrize("name", rldrill.families())
 def test_the_page_reads_every_answer_that_it_holds(name: str) -> None:
     """Right and wrong ones: a key that it cannot read is a part that nothing is said of, whatever is typed."""
-    easiest, *_, hardest = family(name).levels
-    for level in (easiest, hardest):
-        exercise = rldrill.draw(name, level, 11)
-        for part in exercise.parts:
-            asked = task(exercise, part)
-            known = [
-                [cell["key"] for cell in asked["cells"] if "key" in cell],
-                *(m["cells"] for m in asked["mistakes"]),
-            ]
-            for key in {key for keys in known for key in keys if isinstance(key, str)}:
-                given = ", ".join(map(json.dumps, (key, asked["parameters"])))
-                assert engine()(f"unread({given})") == "", (exercise.id, part.label, key)
+    exercise = rldrill.draw(name, family(name).levels[-1], 11)
+    for part in exercise.parts:
+        asked = task(exercise, part)
+        known = [
+            [cell["key"] for cell in asked["cells"] if "key" in cell],
+            *(m["cells"] for m in asked["mistakes"]),
+        ]
+        for key in {key for keys in known for key in keys if isinstance(key, str)}:
+            given = ", ".join(map(json.dumps, (key, asked["parameters"])))
+            assert engine()(f"unread({given})") == "", (exercise.id, part.label, key)
 
 
 @pytest.mark.parametrize(
