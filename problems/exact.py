@@ -61,6 +61,8 @@ PARAMETERS_TOLD = f"{', '.join([*PARAMETERS][:-1])} and {[*PARAMETERS][-1]}"
 
 #: Those of them that lie between 0 and 1.
 SHARES = frozenset({"gamma", "alpha", "lambda", "epsilon", "p", "q"})
+#: Those that are so in every problem; p and q may also be rewards.
+ALWAYS_SHARES = SHARES - {"p", "q"}
 
 #: The same by the names and by the letters.
 _BY_NAME = {spelling: Parameter(name) for name, glyph in PARAMETERS.items() for spelling in (name, glyph)}

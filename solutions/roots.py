@@ -5,13 +5,13 @@ from collections.abc import Iterator
 import sympy
 from flint import fmpq, fmpq_poly, fmpz_poly
 
-from rldrill.problems.exact import PARAMETERS
+from rldrill.problems.exact import ALWAYS_SHARES, PARAMETERS
 from rldrill.solutions.exact import to_sympy
 from rldrill.solutions.rational import RationalFunction, quotient
 from rldrill.solutions.value import NoSolution, NotSolved, Value
 
-#: Letters between 0 and 1, whatever the problem; p and q may also be rewards. A step size is not 0.
-_SHARES, _NOT_0 = frozenset({"gamma", "alpha", "lambda", "epsilon"}), "alpha"
+#: A step size is not 0.
+_NOT_0 = "alpha"
 
 
 def degree(value: Value, letter: str) -> int:
@@ -31,7 +31,7 @@ def only_root(value: RationalFunction, *, share: bool, positive: bool) -> tuple[
         NoSolution: it can be no number.
         NotSolved: it can be several numbers, or one that is no fraction.
     """
-    share = share or value.parameter in _SHARES
+    share = share or value.parameter in ALWAYS_SHARES
     positive = positive or value.parameter == _NOT_0
     where = " between 0 and 1" if share else " above 0" if positive else ""
     found = [

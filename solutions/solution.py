@@ -12,7 +12,7 @@ from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.errors import BrokenFamily
-from rldrill.problems.exact import SHARES, Parameter
+from rldrill.problems.exact import ALWAYS_SHARES, Parameter
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.answers.kinds import Answer, answer_kind
 from rldrill.solutions.answers.rule import apart
@@ -85,9 +85,8 @@ def _made(family: Family, read: tuple[Formula, ...]) -> tuple[Misconception, ...
 
 #: The fields whose numbers lie between 0 and 1.
 _SHARES = ("gamma", "alpha", "lam", "epsilon")
-#: Letters that are such numbers wherever they stand; p and q may also be rewards: where their complement is given, too,
-#: they are probabilities.
-_RANGED = {*_SHARES, *SHARES} - {"p", "q"}
+#: These, and letters that are such numbers wherever they stand; others are where their complement is given, too.
+_RANGED = ALWAYS_SHARES.union(_SHARES)
 #: Of a longer working no mistakes are made: nobody does it by hand, and each takes as long as the solution.
 _MOST_LINES = 2000
 

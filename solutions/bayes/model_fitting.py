@@ -101,9 +101,9 @@ def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
         variance = work.step(GAUSSIAN_VARIANCE, **known)
         found = work.answer(variance)
         unbiased = work.step(SAMPLE_VARIANCE, **known)
-        work.answer(
-            unbiased if variance in (found, 0) else unbiased * found / variance
-        )  # from one's own sum of squares
+        if variance not in (found, 0):
+            unbiased = unbiased * found / variance  # from one's own sum of squares
+        work.answer(unbiased)
     if prior is None:
         return
     _most_probable(
