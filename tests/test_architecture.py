@@ -3,6 +3,7 @@
 import ast
 import re
 from fractions import Fraction
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from statistics import median
@@ -65,7 +66,8 @@ MODULES = {
 }
 
 
-def imported(path: Path) -> set[str]:
+@cache
+def imported(path: Path) -> frozenset[str]:
     """Every name that a file imports, within functions too; not what only a type checker imports."""
     names = set()
     waiting: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
@@ -80,9 +82,10 @@ def imported(path: Path) -> set[str]:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: imports are absolute"
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
-    return names
+    return frozenset(names)
 
 
+@cache
 def edges() -> dict[str, set[str]]:
     """For every module the modules that it imports; what is no module itself is a name in one."""
     return {

@@ -19,6 +19,8 @@ from rldrill.exercise import Exercise, draw
 from rldrill.problems.family import Family
 
 LEVELS, SEED = (2, 3), 0
+#: So many kinds of error to a problem.
+MOST = 5
 
 
 def pinned(family: Family) -> dict[str, Any]:
@@ -43,12 +45,14 @@ def said(exercise: Exercise, part: str, text: str) -> dict[str, Any]:
 
 
 def _wrong(exercise: Exercise) -> Iterator[tuple[str, str, str]]:
-    """One wrong answer of every kind of error that is put down to what it was made by; and a number from nowhere."""
+    """Wrong answers of a few kinds of error, each put down to what it was made by; and a number from nowhere."""
     measured = Measured(exercise.solution, None)
     errors = erroneous(exercise.solution, SEED)
     random.Random(str(exercise.id)).shuffle(errors)
     kinds: set[str] = set()
     for error in errors:
+        if len(kinds) == MOST:
+            break
         found = None if error.kind in kinds else measured.causes(error.part, error.text)
         if found is not None and measured.verdict(error, found[0]) == "right":
             kinds.add(error.kind)
