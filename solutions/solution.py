@@ -96,7 +96,7 @@ class Solution(Struct, frozen=True, dict=True):
 
     problem: Problem
     work: Work
-    attempts: int = 1
+    attempts: int
 
     @property
     def answers(self) -> Mapping[str, Any]:

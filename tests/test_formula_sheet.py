@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 from printed import poppler, words
 from rldrill.commands import sheet as sheet_command
+from rldrill.print import paper as paper_module
 from rldrill.print.formula_sheet import latex_equation, markdown, sections, sheet_source, terminal
 from rldrill.print.paper import pdf
 from rldrill.problems.errors import UsageError
@@ -132,3 +133,11 @@ def test_the_command_refuses(app: typer.Typer, arguments: list[str], message: st
 
 def test_completion_offers_the_sections() -> None:
     assert {name.replace("-", "_") for name in sheet_command.complete_sections("")} == set(SECTIONS)
+
+
+def test_only_fonts_that_come_along_are_used_unless_others_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    compiler = paper_module._compiler
+    monkeypatch.setattr(paper_module, "_compiler", lambda system: asked.append(system) or compiler(system))
+    pdf("text")
+    assert asked == [False]

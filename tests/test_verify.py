@@ -421,6 +421,11 @@ def test_a_faulty_file_is_one_sentence(folder: Path, name: str, content: str, fr
     assert code == 3
 
 
+def test_quotes_are_asked_for_only_where_ids_stand_without(folder: Path) -> None:
+    sentence, _ = says(folder, "a.json", '{td-zero/1/62590: "1"}')
+    assert "stand in quotes: [" not in sentence
+
+
 @pytest.mark.parametrize(
     ("name", "content"),
     [

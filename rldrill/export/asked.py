@@ -67,7 +67,7 @@ class Wrong(Struct, frozen=True):
     value: Any
     says: str
     read: Equation | None
-    possible: bool = True
+    possible: bool
 
 
 def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Cell, ...]:

@@ -36,7 +36,7 @@ def solve(given: Given, work: Work) -> None:
     accuracy = exact(given.accuracy)
     enough = _sweeps(work, known, accuracy)
     distance, gamma = known["distance"][0], known["gamma"]
-    if enough > WRITTEN_OUT and sign(distance - accuracy) > 0:  # somebody's own distance may be below
+    if enough > WRITTEN_OUT:
         least = float(sympy.log(to_sympy(distance / accuracy)) / sympy.log(to_sympy(ONE / gamma)))
         work.say(
             f"Logarithms lead to $k$ quickly: $γ^k·{text_of(distance)} ≤ {text_of(accuracy)}$ for $k ≥ "

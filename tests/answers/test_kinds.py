@@ -37,6 +37,11 @@ def test_an_answer_as_json_has_it_and_as_it_is_typed(
     assert answer.write(value) == typed
 
 
+def test_one_action_that_was_typed_and_several_are_the_same_sort_of_value() -> None:
+    kind = answer_kind(Policy({"s": ("left", "right"), "t": ("left",)}))
+    assert kind.value({"s": "left", "t": ["left", "right"]}) == {"s": ("left",), "t": ("left", "right")}
+
+
 def test_one_entry_is_typed_as_a_number_and_more_as_rows() -> None:
     assert answer_kind(Matrix(1, 1)).how_to_type() == "a number: 3/4 or 0.75"
     for rows, columns in ((1, 2), (2, 1), (2, 2)):

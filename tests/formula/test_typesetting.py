@@ -9,7 +9,7 @@ from flint import fmpq, fmpq_mat
 from sympy import evaluate, factorial, log, sqrt
 
 from rldrill.problems.document import Equation
-from rldrill.problems.mathematics import mathematics
+from rldrill.problems.mathematics import Fraction, Glyph, mathematics, row
 from rldrill.render.mathematics.latex import latex
 from rldrill.render.mathematics.stacked import stacked
 from rldrill.render.mathematics.unicode import unicode
@@ -172,6 +172,12 @@ def test_values_are_written_as_by_hand(value: object, text: str) -> None:
 )
 def test_the_notation_of_questions(source: str, text: str) -> None:
     assert unicode(mathematics(source)) == text
+
+
+def test_of_two_things_above_a_slash_a_differential_stands_without_brackets() -> None:
+    d, x, y = (Glyph(letter, "variable") for letter in "dxy")
+    assert unicode(Fraction(row(d, y), row(d, x))) == "dy/dx"
+    assert unicode(Fraction(row(x, y), row(y, d))) == "xy/(yd)"
 
 
 def test_mathematics_left_open_is_refused() -> None:

@@ -67,6 +67,7 @@ def test_everything_right_is_everything_and_what_is_left_out_counts(tmp_path: Pa
     rows += [("Ben", "", "1", "a", right["1", "a"])]
     report = graded(tmp_path, rows, Assignment(path))
     of = made.versions[0].points
+    assert tables.totals(report).startswith("student,number,version,points,of,percent,passed,remark")
     assert student(report, "Ann").score.points == student(report, "Ann").score.of == of
     ben = student(report, "Ben")
     assert ben.score.of == of
@@ -487,6 +488,7 @@ def test_every_report_tells_the_points_on_the_exams_scale(tmp_path: Path) -> Non
     assert "2 of 5 (40 %), 40 of 100" in text.written(report, "reason")
     assert "40 of 100" in page.written(report, "reason")
     assert "2 of 5 points, 40 of 100" in github.summary(report, "reason")
+    assert tables.totals(report).startswith("student,number,version,points,of,percent,scaled,scaled of,passed,remark")
     assert "2,5,40,40,100,no" in tables.totals(report)
     assert '<property name="scaled" value="40" />' in junit.written(report, "reason")
     results = json.loads(gradescope.written(report, "reason"))

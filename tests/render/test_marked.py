@@ -43,6 +43,8 @@ def _marked(math: Math) -> list[Math]:
         ("r", "r + γ V", ["r"]),
         ("V + α (r - V)", "V + α (r + γ V - V)", ["r"]),
         ("x", "(a + b) / 2", ["x"]),
+        ("c a + b", "x", ["ca + b"]),  # nothing of it is right, and it begins with no sign
+        ("-r", "r", ["−"]),  # a sign that is too many is all there is to mark
         ("a + b", "a + b", []),
     ],
 )

@@ -268,7 +268,7 @@ def test_a_state_diagram_is_a_tree_in_the_terminal() -> None:
 
 def test_the_title_of_a_backup_diagram_stands_over_its_middle() -> None:
     root = Node("state", branches=(Branch(Node("action"), "a long label"), Branch(Node("action"))))
-    box, title = drawn_backup(root).box, drawn_backup(root, "Q").shapes[-1]
+    box, title = drawn_backup(root, "").box, drawn_backup(root, "Q").shapes[-1]
     assert isinstance(title, Caption)
     assert abs(box.left + box.right) > 1, "the diagram is not the same on both sides"
     assert title.at[0] - box.left == pytest.approx(box.right - title.at[0])
@@ -371,4 +371,4 @@ def test_every_centre_of_a_bump_has_its_number_and_none_runs_into_another() -> N
 
 def test_two_diagrams_that_have_titles_stand_apart() -> None:
     root = backup_diagram("td-zero").root
-    assert drawn_backup(root, "1").box.right == pytest.approx(drawn_backup(root).box.right + 20)
+    assert drawn_backup(root, "1").box.right == pytest.approx(drawn_backup(root, "").box.right + 20)

@@ -20,6 +20,7 @@ from rldrill.problems.scenes import SCENES
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.solution import solver
 
 quick = settings(deadline=None, max_examples=25)
 seeds = st.integers(0, 10_000)
@@ -350,6 +351,15 @@ def test_a_measurement_tells_something(level: int, seed: int) -> None:
     exercise = rldrill.draw("bayes-rule", level, seed)
     prior = {name: fmpq(p.numerator, p.denominator) for name, p in exercise.problem.given.prior.items()}  # type: ignore[attr-defined]
     assert list(exercise.solve().values())[-1] != prior
+
+
+@pytest.mark.parametrize(("noises", "w"), [({"process": "w", "sensor": 3}, 4), ({"process": 4, "sensor": "w"}, 3)])
+def test_the_variance_of_either_noise_is_found_from_that_after_the_measurement(noises: dict[str, Any], w: int) -> None:
+    # Σ̄ = 2 + 4 = 6, K = 6/(6 + 3) = 2/3: Σ = (1 − 2/3)·6 = 2, μ = 3 + 2/3·(6 − 3) = 5.
+    given_ = {"mean": 1, "covariance": 2, **noises, "steps": [{"u": 2, "z": 6}], "variance": 2}
+    exercise = rldrill.read({"family": "kalman-filter", "given": given_})
+    assert list(exercise.solve().values()) == [w, 5]
+    assert solver(exercise.problem.family).oracle(exercise.problem.given) == pytest.approx([w, 5])
 
 
 def test_a_variance_by_the_other_divisor_is_recognised_both_ways() -> None:

@@ -13,6 +13,7 @@ import rldrill
 from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.solution import solver
 
 whole = st.integers(-5, 5)
@@ -48,6 +49,15 @@ def test_semi_gradient_td_with_one_feature_for_every_state_is_td_zero(
     )["b"]  # fmt: skip
     table = solved("td-zero", trajectory=run, values={"a": here, "b": there}, alpha="1/3", gamma=gamma)["a"]
     assert learnt == tuple(table.values())
+
+
+def test_of_every_step_only_its_own_two_states_are_valued() -> None:
+    run = {"states": ["a", "b", "c"], "rewards": [1, 2]}
+    features = {"a": [1, 0], "b": [0, 1], "c": [1, 1]}
+    given_ = {"trajectory": run, "features": features, "theta": [2, 3], "alpha": "1/2", "gamma": 1}
+    exercise = rldrill.read({"family": "semi-gradient-td", "given": given_})
+    written = "\n".join(unicode_text(block) for block in exercise.working())
+    assert [written.count(f"V\u0302({state}) =") for state in "abc"] == [1, 2, 1]
 
 
 @given(st.lists(texts, min_size=4, max_size=4), texts, discounts)

@@ -155,3 +155,7 @@ def test_a_hundred_states_are_solved_exactly() -> None:
     for index in range(1, 99):
         expected = fmpq(1, 2) * (1 + fmpq(9, 10) * (values[str(index + 1)] + values[str(index - 1)]))
         assert values[str(index)] == expected
+
+
+def test_what_somebody_brings_takes_one_draw() -> None:
+    assert rldrill.read({"family": "return", "given": {"rewards": [1], "gamma": 1}}).solution.attempts == 1

@@ -24,7 +24,7 @@ _SHARE = 0.62  # where labels stand along a branch
 _ARC = 0.48  # where the arc crosses the branches
 
 
-def scene(root: Node, title: str = "") -> Scene:
+def scene(root: Node, title: str) -> Scene:
     """A backup diagram, its root above, and over it the title, which it has where another stands beside it."""
     lines: list[Shape] = []
     nodes: list[Shape] = []
