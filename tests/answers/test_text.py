@@ -8,6 +8,7 @@ from flint import fmpq
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from numbers_drawn import small
 from promptness import at_once
 from rldrill.solutions.answers.text import (
     Reading,
@@ -1098,7 +1099,7 @@ def combined(parts: st.SearchStrategy) -> st.SearchStrategy:
     )
 
 
-TREES = st.recursive(st.fractions(0, 20, max_denominator=12).map(Fraction), combined, max_leaves=10)
+TREES = st.recursive(small(0, 20, 12), combined, max_leaves=10)
 
 
 def computed(tree) -> Fraction:

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Expr, Integer, Pow, S, evaluate
 
+from numbers_drawn import small
 from rldrill.problems.mathematics import Fence, Math, listed, row, word
 from rldrill.render.unicode import unicode
 from rldrill.solutions.effort import seconds_of
@@ -49,7 +50,7 @@ from rldrill.solutions.work import Work
 
 x, y = letter("x"), letter("y")
 Places = letter("places", "F")
-numbers = st.fractions(-9, 9, max_denominator=12).map(lambda value: fmpq(value.numerator, value.denominator))
+numbers = small(-9, 9, 12).map(lambda value: fmpq(value.numerator, value.denominator))
 
 
 class Middle(Node):

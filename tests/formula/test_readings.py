@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Expr
 
+from numbers_drawn import small
 from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.notation import ArgMaxOver, Quantity
@@ -20,7 +21,7 @@ from rldrill.solutions.vector import Vector
 
 STATES = ("cool", "warm", "hot")
 ACTIONS = ("slow", "fast")
-fractions = st.fractions(-9, 9, max_denominator=12)
+numbers = small(-9, 9, 12)
 
 
 class Anything(Mapping[Any, Any]):
@@ -46,7 +47,7 @@ def known(data: st.DataObject, expression: Expr) -> dict[str, Any]:
     """Values for all letters and quantities of an expression."""
 
     def number(_: Any = None) -> fmpq:
-        value = data.draw(fractions)
+        value = data.draw(numbers)
         return fmpq(value.numerator, value.denominator)
 
     def vector(_: Any = None) -> Vector:
@@ -106,7 +107,7 @@ READINGS = {key: formula.right for key, formula in formulas().items()} | {
 
 @pytest.mark.parametrize("name", READINGS)
 @given(data=st.data())
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=8, deadline=None)
 def test_the_compiled_value_is_the_value_of_the_step(name: str, data: st.DataObject) -> None:
     expression = READINGS[name]
     values = known(data, expression)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import rldrill
 from asking import solved
+from numbers_drawn import small
 from rldrill.problems.catalogue import family
 from rldrill.problems.document import Paragraph
 from rldrill.problems.errors import FileError
@@ -18,7 +19,7 @@ from rldrill.solutions.solution import solver
 
 STATES = ("a", "b", "c")
 ACTIONS = ("x", "y", "z")
-numbers = st.fractions(-5, 5, max_denominator=4).map(str)
+numbers = small(-5, 5, 4).map(str)
 rates = st.sampled_from(["1/2", "1/4", "1"])
 chances = st.integers(1, 9).map(lambda tenths: f"{tenths}/10")
 tables = st.fixed_dictionaries({state: st.fixed_dictionaries(dict.fromkeys(ACTIONS, numbers)) for state in STATES})

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import rldrill
 from asking import mistaken, solved
+from numbers_drawn import small
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Parameter
 from rldrill.problems.parts import YesNo
@@ -19,7 +20,7 @@ from rldrill.solutions.formula.notation import Counting, ProductOver, i
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset
 
-numbers = st.fractions(-5, 5, max_denominator=4).map(str)
+numbers = small(-5, 5, 4).map(str)
 discounts = st.sampled_from(["0", "1/2", "9/10"])
 
 

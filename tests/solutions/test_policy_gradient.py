@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import rldrill
 from asking import rounded, solved
+from numbers_drawn import small
 from rldrill.problems.catalogue import family
 from rldrill.problems.document import Paragraph
 from rldrill.problems.errors import FileError
@@ -23,7 +24,7 @@ from rldrill.solutions.softmax import action_features, by_number
 from rldrill.solutions.vector import Vector
 
 ACTIONS = ("left", "right", "stay")
-numbers = st.fractions(-4, 4, max_denominator=3)
+numbers = small(-4, 4, 3)
 texts = numbers.map(str)
 weights = st.one_of(texts, st.sampled_from(["ln 2", "ln 3"]))
 rows = st.lists(st.integers(0, 3), min_size=2, max_size=2)
