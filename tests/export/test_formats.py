@@ -481,5 +481,5 @@ def test_the_right_choice_is_told_in_words_and_a_wrong_number_as_it_is_written_b
     chosen = rldrill.load("backup-diagram-name/2/13")
     assert answer(chosen, chosen.parts[0], words("en")) == Paragraph("(B) the Monte Carlo method for state values")
     part = Part("?", Number(), label="a")
-    wrong = Wrong(("-1/8",), fmpq(-1, 8), "", None)
+    wrong = Wrong(("-1/8",), fmpq(-1, 8), "", None, possible=True)
     assert [latex(line) for line in typeset(part, wrong)] == [r"- \frac{1}{8} = - 0.125"]
