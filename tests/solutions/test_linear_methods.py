@@ -1,7 +1,8 @@
 """Identities between the linear methods: LQR, its horizon, its linearisation, DDP."""
 
-from collections import Counter
+from collections import Counter, defaultdict
 from fractions import Fraction
+from functools import partial
 from itertools import product
 from json import dumps, loads
 from typing import Any
@@ -10,7 +11,7 @@ from unicodedata import normalize
 import numpy as np
 import pytest
 import sympy
-from flint import fmpq
+from flint import fmpq, fmpq_mat
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -26,9 +27,19 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
+from rldrill.solutions.formula.compiling import value_of
+from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.formula.notation import gamma
 from rldrill.solutions.linear_methods.ddp_backward import _is_negative
-from rldrill.solutions.sheet.linear_methods import OTHER_ROOT, POSITIVE_S, Modes, scalar_system
+from rldrill.solutions.sheet.linear_methods import (
+    LOOP_WITHOUT_R,
+    LOOP_WITHOUT_R_IN_COSTS,
+    OTHER_ROOT,
+    POSITIVE_S,
+    Modes,
+    quadratic,
+    scalar_system,
+)
 from rldrill.solutions.work import Equality, Note, Step
 
 whole = st.integers(-3, 3)
@@ -552,6 +563,19 @@ def test_the_root_solves_the_quadratic_and_the_riccati_equation(
     assert abs((system.equation.right.subs(numbers) - root).evalf(30)) < 1e-25
     gain = system.gain.right.subs(numbers).evalf(30)
     assert abs(3 - 2 * gain) * (sympy.sqrt(numbers[gamma]) if discounted else 1) < 1, "the closed loop is not stable"
+
+
+@pytest.mark.parametrize(("notation", "mistake", "after", "found"), [
+    ("value", LOOP_WITHOUT_R, -2, -6), ("cost-to-go", LOOP_WITHOUT_R_IN_COSTS, 2, 6),
+])  # fmt: skip
+def test_who_forgets_what_the_action_costs_adds_the_loop_alone(
+    notation: str, mistake: Misconception, after: int, found: int
+) -> None:
+    # A = 3, B = 2, L = 1: the loop is 3 − 2 = 1. With Q = 5 and γ = 1/2 it is 5 + 1/2·1·2·1 = 6, R = 7 left out.
+    formula = quadratic(NOTATIONS[notation], discounted=True, crossed=False).riccati
+    numbers = {"At": 3, "Bt": 2, "Qt": 5, "Rt": 7, "Lt": 1, formula.left.code: after}
+    known = {code: defaultdict(partial(fmpq_mat, 1, 1, [number])) for code, number in numbers.items()}
+    assert value_of(formula.misread[mistake], {**known, "t": 0, "gamma": fmpq(1, 2)}) == fmpq_mat([[found]])
 
 
 @pytest.mark.parametrize("notation", [*NOTATIONS.values()], ids=[*NOTATIONS])
