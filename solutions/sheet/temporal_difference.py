@@ -338,6 +338,19 @@ with evaluate(False):
         "mean-of-old-and-new",
         "The old value stands for all returns before; the new one counts 1/n(s), 1/2 only at the second visit.",
     )
+    OLD_MEAN_ONCE = Misconception(
+        "old-mean-counted-once",
+        "The old value stands for all n(s) − 1 returns before, so it counts n(s) − 1 times before everything is "
+        "divided by n(s).",
+    )
+    SUM_NOT_DIVIDED = Misconception(
+        "sum-not-divided", "An average is the sum of all returns divided by their number: divide by n(s)."
+    )
+    NEW_RETURN_NOT_COUNTED = Misconception(
+        "new-return-not-counted",
+        "The new return is one of those that are averaged: the sum of all is divided by n(s), this visit included.",
+        when=lambda given: given.visited_before,
+    )
     SAMPLE_AVERAGE = Formula(
         "sample-average",
         V(S(t)),
@@ -351,6 +364,9 @@ with evaluate(False):
             NOT_COUNTED: V(S(t)) + Pow(N(S(t)) - 1, -1) * (G(t) - V(S(t))),
             COUNTED_TWICE: V(S(t)) + Pow(N(S(t)) + 1, -1) * (G(t) - V(S(t))),
             MEAN_OF_TWO: (V(S(t)) + G(t)) * Pow(2, -1),
+            OLD_MEAN_ONCE: (V(S(t)) + G(t)) / N(S(t)),
+            SUM_NOT_DIVIDED: (N(S(t)) - 1) * V(S(t)) + G(t),
+            NEW_RETURN_NOT_COUNTED: ((N(S(t)) - 1) * V(S(t)) + G(t)) / (N(S(t)) - 1),
         },
     )
 

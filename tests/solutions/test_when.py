@@ -26,6 +26,8 @@ OTHER_QUESTION = {
     "weights-interleaved-beside-the-open-one": "where no weight is open it is the one above",
     "width-forgotten": "b is asked or used before",
     "outer-step-from-adapted": "each of several tasks has an adapted parameter of its own",
+    "divided-by-their-sum": "beside features that are known those asked for are not all",
+    "other-action-subtracted": "of three actions no one is the other",
     "absolute-rates": "of more than two links it is not worked out",
     "update-for-target": "the step size is not stated where no target needs it, or is asked for",
 }
