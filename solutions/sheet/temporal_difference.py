@@ -166,6 +166,10 @@ with evaluate(False):
         "The value is that of the state that is reached after n steps, not of the one that the return starts from.",
     )
     FROM_TIME_0 = Misconception("from-time-0", "The return from time t begins with the reward rₜ₊₁, not with r₁.")
+    BOOTSTRAP_ONE_STATE_SHORT = Misconception(
+        "bootstrap-one-state-short",
+        "After n rewards the agent is in the state sₜ₊ₙ: it is its value that counts, not that of the state before it.",
+    )
     N_STEP_RETURN = Formula(
         "n-step-return",
         Gn(t, n),
@@ -179,6 +183,7 @@ with evaluate(False):
             BOOTSTRAP_ONE_SHORT: _REWARDS + gamma ** (n - 1) * V(S(t + n)),
             ONE_REWARD_TOO_MANY: SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n)) + gamma**n * V(S(t + n)),
             BOOTSTRAP_AT_START: _REWARDS + gamma**n * V(S(t)),
+            BOOTSTRAP_ONE_STATE_SHORT: _REWARDS + gamma**n * V(S(t + n - 1)),
             FROM_TIME_0: SumOver(gamma**i * r(1 + i), i, Counting(0, n - 1)) + gamma**n * V(S(n)),
         },
     )

@@ -16,6 +16,7 @@ from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     BOOTSTRAP_AT_START,
     BOOTSTRAP_ONE_SHORT,
+    BOOTSTRAP_ONE_STATE_SHORT,
     BOOTSTRAP_UNDISCOUNTED,
     FROM_TIME_0,
     N_STEP_RETURN,
@@ -99,6 +100,7 @@ MISCONCEPTIONS = (
     ONE_REWARD_TOO_MANY,
     STEP_UNDISCOUNTED,
     BOOTSTRAP_AT_START.where_it_shows(),
+    BOOTSTRAP_ONE_STATE_SHORT.where_it_shows(),
     FROM_TIME_0.where_it_shows(),
     value_after_the_end.where_it_shows(),
 )
