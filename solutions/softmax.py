@@ -1,6 +1,6 @@
 """Softmax policies as solvers need them: probabilities, scores, returns; and their gradient by other means."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import sympy
@@ -11,6 +11,7 @@ from rldrill.problems.features import ActionFeatures, FeatureVector
 from rldrill.problems.softmax import SoftmaxRun
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, Value, exact, ordered, simplest, to_sympy
+from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
 from rldrill.solutions.sheet.policy_gradient import PREFERENCE, RETURN_FROM_A_STEP, SCORE_FUNCTION, SOFTMAX_POLICY
@@ -74,8 +75,35 @@ def chances(work: Work, known: Mapping[str, Any], state: str, actions: Sequence[
     """Work out the probability of every action in a state, from the preferences."""
     bound = {**known, "s": state, "choices": tuple(actions)}
     bound["H"] = {(state, action): work.step(PREFERENCE, a=action, **bound) for action in actions}
+    if work.misconception is not None and work.misconception.name == _ADDED:
+        bound["H"] = {pair: _logarithm_of_the_sum(bound, pair) for pair in bound["H"]}
     tell_exponentials(work, bound["H"].values())
     return {(action, state): simplest(work.step(SOFTMAX_POLICY, a=action, **bound)) for action in actions}
+
+
+#: The name of the slip of whoever takes e to the power of a sum for the sum of the powers.
+_ADDED = "exponentials-added"
+
+
+def exponentials_added(solve: Callable[[Any, Work], None]) -> Misconception:
+    """The slip of a solver with a softmax policy that adds the exponentials of a preference's terms up."""
+    made = slip(_ADDED, "e to the power of a sum is a product: exp(x + y) = exp(x) exp(y).", when=_has_sums)(solve)
+    return made.where_it_shows()
+
+
+def _has_sums(given: Any) -> bool:
+    """Whether some preference is a sum of several terms that are not 0."""
+    rows = list(given.features.values())
+    vectors = [vector for row in rows for vector in row.values()] if isinstance(rows[0], dict) else rows
+    weights = given.theta or ()
+    return any(sum(bool(w) and bool(x) for w, x in zip(weights, vector, strict=False)) > 1 for vector in vectors)
+
+
+def _logarithm_of_the_sum(known: Mapping[str, Any], pair: tuple[str, str]) -> Value:
+    """The preference whose exponential is the sum of the exponentials of its terms; 0 where it has none."""
+    terms = [to_sympy(weight * known["f"][(index, *pair)]) for index, weight in known["theta"].items()]
+    powers = [sympy.exp(term) for term in terms if term != 0]
+    return simplest(sympy.log(sum(powers))) if powers else ZERO
 
 
 def score(work: Work, known: Mapping[str, Any], state: str, action: str, actions: Sequence[str]) -> Vector:

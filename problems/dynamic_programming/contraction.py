@@ -17,7 +17,7 @@ from rldrill.problems.sweeps import counted
 
 TITLE = "Contraction of value iteration"
 SOURCE = "Puterman 1994, sections 6.2 and 6.3"
-REVISION = 4
+REVISION = 5
 
 
 def _positive(value: Fraction) -> Fraction:
@@ -70,7 +70,8 @@ def draw(level: int, rng: Draws) -> Given:
     states = draw_setting(rng).states[: 2 if level == 1 else 2 + rng.below(level)]
     start = {state: Fraction(0) if level == 1 else rng.whole(-2, 6) for state in states}
     other = {state: value + rng.nonzero(-5, 12) for state, value in start.items()}
-    discounts = {1: ("1/2", "1/3", "1/4", "1/5"), 2: ("1/2", "1/3", "1/4"), 3: ("2/3", "3/4", "4/5")}[level]
+    # none is 1/2, which is 1 minus itself
+    discounts = {1: ("1/3", "1/4", "1/5", "2/3"), 2: ("1/3", "1/4", "2/3"), 3: ("2/3", "3/4", "4/5")}[level]
     gamma = rng.fraction(*discounts)
     distance = max(abs(other[state] - value) for state, value in start.items()) / (1 if known else 1 - gamma)
     near = [each for each in _ACCURACIES.get(level, ()) if _sweeps(distance, gamma, fraction_of(each)) in _BY_HAND]

@@ -27,7 +27,7 @@ from rldrill.problems.softmax import (
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 8
+REVISION = 9
 
 #: The actor's chances are softmaxes of weights that hold softmaxes; deeper ones fill pages.
 _DEEPEST = 3
@@ -79,8 +79,8 @@ def draw(level: int, rng: Draws) -> Given:
         theta, features = _weights_of_their_own(rng, (first, second), actions)
     else:
         theta, features = (draw_even_policy if level == 1 else draw_log_policy)(rng, (first,), actions)
-        if not told_apart(features) or (level == 2 and is_even(theta, features)):
-            return draw(level, rng)
+        if not told_apart(features) or (level == 2 and (is_even(theta, features) or len(set(theta)) == 1)):
+            return draw(level, rng)  # of 2 and 2 the sum would be the product
     given = Given(
         trajectory=draw_run(rng, states, taken, setting.terminal),
         theta=theta,

@@ -17,6 +17,7 @@ from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
     BELLMAN_Q,
     BELLMAN_V,
+    MAXIMA_APART,
     V_FROM_Q,
 )
 from rldrill.solutions.work import Work
@@ -149,6 +150,7 @@ MISCONCEPTIONS = (
     forgot_gamma,
     gamma_on_reward,
     one_level,
+    MAXIMA_APART.where_it_shows(),
 )
 
 

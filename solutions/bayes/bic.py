@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from functools import reduce
 from string import ascii_uppercase
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy
 
@@ -36,11 +36,20 @@ def solve(given: Given, work: Work) -> None:
     _compare(given, work, better=-1)
 
 
-def _compare(given: Given, work: Work, better: int) -> None:
+#: The number of data at which both are equal, from the quotient of the likelihoods and of how many parameters there are
+#: more in the richer model.
+Border: TypeAlias = Callable[[sympy.Expr, int], Any]
+
+
+def _number_of_data(ratio: sympy.Expr, more: int) -> Any:
+    return simplest(ratio ** sympy.Rational(2, more))
+
+
+def _compare(given: Given, work: Work, better: int, border: Border = _number_of_data) -> None:
     """The model wins of which the sign of its criterion minus any other's is ``better``."""
     names = given.names
     if given.border:
-        _border(given, work, better)
+        _border(given, work, better, border)
         return
     fit = {}
     if given.fitted is not None:
@@ -153,7 +162,7 @@ def _sum(times: Mapping[Value, Value], logarithm: Callable[[Value], Any]) -> sym
     return terms[0] if len(terms) == 1 else sympy.Add(*terms, evaluate=False)
 
 
-def _border(given: Given, work: Work, better: int) -> None:
+def _border(given: Given, work: Work, better: int, border: Border) -> None:
     """The number of data at which what the richer model gains is what its parameters cost."""
     assert given.fitted is not None
     simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
@@ -176,7 +185,7 @@ def _border(given: Given, work: Work, better: int) -> None:
     more = models[0].k - models[1].k
     gained = to_sympy(fit[rich]) - to_sympy(fit[simple])
     ratio = to_sympy(exact(needed(models[0].likelihood)) / exact(needed(models[1].likelihood)))
-    n = simplest(ratio ** sympy.Rational(2, more))
+    n = border(ratio, more)
     work.lines.append(Equality(sides[0], (sides[1],)))
     work.lines.append(Equality(multiple(exact(more), sympy.log(count)), (tidy(2 * gained),)))
     if more != 1:
@@ -218,7 +227,34 @@ def largest_wins(given: Given, work: Work) -> None:
     _compare(given, work, better=1)
 
 
-MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10)
+@slip(
+    "two-forgotten",
+    "The BIC has −2 ln p in it: what the richer model gains is twice the difference of the log-likelihoods.",
+    when=lambda given: bool(given.border),
+)
+def two_forgotten(given: Given, work: Work) -> None:
+    """The number of data without the 2 before the logarithm."""
+    _compare(given, work, better=-1, border=lambda ratio, more: simplest(ratio ** sympy.Rational(1, more)))
+
+
+@slip(
+    "logarithm-of-the-number",
+    "That is ln n; the number of data n is e to the power of it.",
+    when=lambda given: bool(given.border),
+)
+def logarithm_kept(given: Given, work: Work) -> None:
+    """The logarithm of the number of data."""
+    _compare(given, work, better=-1, border=lambda ratio, more: tidy(2 * sympy.log(ratio) / more))
+
+
+MISCONCEPTIONS = (
+    BIC_SIGN,
+    BIC_WITHOUT_LOG,
+    largest_wins,
+    BIC_LOG_10,
+    two_forgotten.where_it_shows(),
+    logarithm_kept.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -14,6 +14,7 @@ from rldrill.solutions.matrices import identity, matrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
+    GAIN_BEFORE_THE_MOTION,
     GAIN_ON_PREDICTION,
     KALMAN_COVARIANCE,
     KALMAN_GAIN,
@@ -125,6 +126,7 @@ MISCONCEPTIONS = (
     VARIANCES_FOR_INVERSES,
     PROCESS_NOISE_FORGOTTEN,
     NOISES_EXCHANGED.where_it_shows(),
+    GAIN_BEFORE_THE_MOTION.where_it_shows(),
     SHARE_TAKEN.where_it_shows(),
     unweighed.where_it_shows(),
 )

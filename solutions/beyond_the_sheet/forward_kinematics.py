@@ -53,7 +53,17 @@ def exchanged(given: Given, work: Work) -> None:
         work.answer((y, x))
 
 
-MISCONCEPTIONS = (ABSOLUTE_ANGLES, exchanged)
+@slip(
+    "lengths-exchanged",
+    "A link's length and its angle belong together: l₁ goes with φ₁, and l₂ with φ₂.",
+    when=lambda given: len(given.lengths) == 2,
+)
+def lengths_exchanged(given: Given, work: Work) -> None:
+    """The length of either link for that of the other."""
+    solve(given.model_copy(update={"lengths": given.lengths[::-1]}), work)
+
+
+MISCONCEPTIONS = (ABSOLUTE_ANGLES, exchanged, lengths_exchanged.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

@@ -17,8 +17,10 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     JACOBIAN_X,
     JACOBIAN_Y,
     JOINT_RATES,
+    MINUSES_FORGOTTEN,
     SECOND_RATE,
     SINGULAR,
+    TRANSPOSE_FOR_INVERSE,
 )
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
@@ -103,7 +105,13 @@ def absolute_rates(given: Given, work: Work) -> None:
         work.answer(singular)
 
 
-MISCONCEPTIONS = (transposed, ABSOLUTE_ANGLES, absolute_rates.where_it_shows())
+MISCONCEPTIONS = (
+    transposed,
+    ABSOLUTE_ANGLES,
+    absolute_rates.where_it_shows(),
+    TRANSPOSE_FOR_INVERSE.where_it_shows(),
+    MINUSES_FORGOTTEN.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

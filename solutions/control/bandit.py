@@ -25,6 +25,7 @@ from rldrill.solutions.sheet.control import (
     LOG_10_IN_UCB,
     OTHERS_UNCHANGED,
     OWN_COUNT_FORGOTTEN,
+    OWN_MEAN_AS_BASELINE,
     PULLS_FOR_TIME,
     REWARD_BASELINE,
     TIME_FOR_LOG,
@@ -162,7 +163,7 @@ def _follow_gradient(given: Preferences, work: Work) -> None:
         "alpha": exact(given.alpha),
     }
     known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.every_arm})
-    known["rbar"] = {known["n"]: work.step(REWARD_BASELINE, r=known["r"], n=known["n"])}
+    known["rbar"] = {known["n"]: work.step(REWARD_BASELINE, r=known["r"], A=known["A"], n=known["n"])}
     work.answer({arm: work.step(GRADIENT_BANDIT, a=arm, **known) for arm in given.every_arm})
 
 
@@ -176,6 +177,7 @@ MISCONCEPTIONS = (
     BANDIT_WITHOUT_EXP,
     BASELINE_FORGOTTEN,
     OTHERS_UNCHANGED,
+    OWN_MEAN_AS_BASELINE.where_it_shows(),
 )
 
 

@@ -215,6 +215,24 @@ def update_for_target(given: Given, work: Work) -> None:
     _compare(given, work, numbers=_updates)
 
 
+def _errors(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
+    run = given.trajectory
+    pairs = zip(run.states, run.actions, strict=False)
+    return tuple(
+        target - known["Q"][pair] for pair, (known, target) in zip(pairs, _along(given, work, formula), strict=False)
+    )
+
+
+@slip(
+    "td-error-for-target",
+    "That is the TD error: the target is what stands before the old value is subtracted from it.",
+    when=_asks_for_targets,
+)
+def error_for_target(given: Given, work: Work) -> None:
+    """How far the values are from the targets."""
+    _compare(given, work, numbers=_errors)
+
+
 @slip(
     "one-table-for-both",
     "Each method has a copy of the table of its own: Q-learning goes on from the values that it has moved itself.",
@@ -277,6 +295,7 @@ def said_neither(given: Given, work: Work) -> None:
 MISCONCEPTIONS = (
     targets_swapped,
     update_for_target,
+    error_for_target.where_it_shows(),
     one_table.where_it_shows(),
     old_table,
     SARSA_TARGET_FORGOT_GAMMA,

@@ -15,6 +15,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
     CHANGE_FOR_ERROR,
     CONTRACTION,
     ERROR_FROM_CHANGE,
+    FACTOR_OF_THE_CHANGE,
     FORGOT_DISTANCE,
     MAX_NORM,
     MAX_NORM_OF_SWEEP,
@@ -141,6 +142,7 @@ def strictly_below(given: Given, work: Work) -> None:
 MISCONCEPTIONS = (
     FORGOT_DISTANCE,
     ONE_POWER_SHORT,
+    FACTOR_OF_THE_CHANGE,
     SUM_FOR_MAX,
     CHANGE_FOR_ERROR,
     stops_short,

@@ -10,6 +10,7 @@ from rldrill.problems.valued import ROUNDING
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, NoSolution, Value, equals, exact, parameters
 from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
@@ -25,17 +26,12 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (
-    GREEDY_BY_VALUE,
-    GREEDY_BY_REWARD,
-    SMALLEST_Q,
-    Q_FORGOT_GAMMA,
-    OWN_VALUE,
-)
 
+def solve(given: Given, work: Work, *, stays: bool = False) -> None:
+    """The value that is missing, the values of the actions, the best action of every state.
 
-def solve(given: Given, work: Work) -> None:
-    """The value that is missing, the values of the actions, the best action of every state."""
+    If a state ``stays`` its value does where it leads to the end, as if it were not left.
+    """
     V = knowns.state_values(given.values, given.mdp.terminal)
     known = knowns.model(given.mdp) | {"gamma": exact(given.gamma)}
     found: dict[tuple[str, str], Value] = {}
@@ -45,14 +41,19 @@ def solve(given: Given, work: Work) -> None:
         if V[given.missing] != value:  # whoever has another value goes on with it
             found = {}
     known |= {"V": V}
+
+    def ahead_of(state: str) -> dict[str, Any]:
+        return known | {"V": V | dict.fromkeys(given.mdp.terminal, V[state])} if stays else known
+
     if given.action_values:
         if found:
             work.say(f"The values of the actions in {given.missing} are those of part (a).")
-        rest = {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs if (s, a) not in found}
+        pairs = [pair for pair in given.mdp.pairs if pair not in found]
+        rest = {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **ahead_of(s)) for s, a in pairs}
         Q = work.answer({pair: (found | rest)[pair] for pair in given.mdp.pairs})
         greedy = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, **known) for state in given.mdp.states}
     else:
-        greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
+        greedy = {state: work.step(GREEDY_FROM_V, s=state, **ahead_of(state)) for state in given.mdp.states}
     if given.gamma == 1:
         best = optimum(given.mdp, given.gamma)
         if given.missing is None:
@@ -107,6 +108,26 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tup
     best = work.step(V_STAR_FROM_Q, s=state, Q=values, actions=known["actions"])
     work.say(f"The best action in {state} is {action}.")
     return best, values
+
+
+@slip(
+    "value-kept-at-the-end",
+    "In a terminal state nothing more is earned: it is worth 0, whatever the state before it is worth.",
+    when=lambda given: given.missing is None and bool(given.mdp.terminal),
+)
+def value_kept(given: Given, work: Work) -> None:
+    """A state's own value where the end is next."""
+    solve(given, work, stays=True)
+
+
+MISCONCEPTIONS = (
+    GREEDY_BY_VALUE,
+    GREEDY_BY_REWARD,
+    SMALLEST_Q,
+    Q_FORGOT_GAMMA,
+    OWN_VALUE,
+    value_kept.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -9,7 +9,7 @@ from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.value_iteration import Given, Sought, Swept
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, NotGiven, Value, exact, sign, to_sympy
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, NotGiven, Value, exact, largest, sign, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered
@@ -18,7 +18,7 @@ from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
 from rldrill.solutions.rational import generator
 from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, MAXIMA_APART, OPTIMAL_Q_BY_REWARD
 from rldrill.solutions.sheet.dynamic_programming import (
     MEAN_FOR_MAX,
     SWEEP_OVER_ACTIONS,
@@ -155,6 +155,24 @@ def paid_twice(given: Given, work: Work) -> None:
 
 
 @slip(
+    "greedy-on-reward",
+    "The action with the greatest reward need not be the best one: the value of what follows is added before actions "
+    "are compared.",
+    when=lambda given: _swept(given) and not given.action_values,
+)
+def most_paid(given: Swept, work: Work) -> None:
+    """Only the actions that earn most at once."""
+    mdp = given.mdp
+    earned = {
+        pair: sum((exact(row.probability) * exact(row.reward) for row in rows), ZERO)
+        for pair, rows in mdp.outcomes.items()
+    }
+    most = {state: largest([earned[state, action] for action in actions]) for state, actions in mdp.actions.items()}
+    rows = tuple(row for row in mdp.transitions if earned[row.state, row.action] == most[row.state])
+    solve(given.model_copy(update={"mdp": mdp.model_copy(update={"transitions": rows})}), work)
+
+
+@slip(
     "one-sweep-short",
     "This comes of one sweep less than is asked for: every sweep looks one step further ahead.",
     when=lambda given: isinstance(given, Swept),
@@ -188,7 +206,8 @@ def _ways(given: Sought) -> int:
 
 MISCONCEPTIONS = (
     *order_slips(solve, lambda given: _swept(given) and not given.in_place and not given.action_values),
-    paid_twice, stopped_early, MEAN_FOR_MAX, exceeds,
+    paid_twice, stopped_early, MEAN_FOR_MAX, exceeds, most_paid.where_it_shows(),
+    MAXIMA_APART.where_it_shows(),
     replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and (_swept(given) or isinstance(given, Sought))),
     OPTIMAL_Q_BY_REWARD,
 )  # fmt: skip

@@ -6,8 +6,8 @@ from typing import Any
 from rldrill.problems.function_approximation.rbf import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.centres import distances, found, measured, nearest, value_of_state
-from rldrill.solutions.exact import Value, exact
-from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.exact import Value, exact, simplest, to_sympy
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
@@ -21,10 +21,8 @@ from rldrill.solutions.sheet.function_approximation import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, *, normalised: bool = False) -> None:
     """What is missing first, then centre by centre, then the weighted sum."""
     logarithms = knowns.values(given.logarithms)
     known: dict[str, Any] = {"s": "s", "log_phi": {(number, "s"): value for number, value in logarithms.items()}}
@@ -41,6 +39,8 @@ def solve(given: Given, work: Work) -> None:
         known["sigma"] = work.answer(sigma)
     known |= distances(given, work, state, of=others)
     values = tuple(work.step(RBF, i=number, **known) for number in others)
+    if normalised:
+        values = tuple(simplest(to_sympy(value) / sum(map(to_sympy, values))) for value in values)
     if values:
         values = work.answer(values)
     if given.theta:
@@ -56,6 +56,19 @@ def _solved(
     work.recall(logarithm_of_rbf())
     work.say(f"Solved for {sought}:")
     return {number: work.step(formula, i=number, **known) for number in logarithms}
+
+
+@slip(
+    "divided-by-their-sum",
+    "Radial basis functions are no probabilities: each is what it is, and is not divided by the sum of all.",
+    when=lambda given: not given.logarithms and len(given.centres) > 1,
+)
+def divided_by_their_sum(given: Given, work: Work) -> None:
+    """Features that sum to 1."""
+    solve(given, work, normalised=True)
+
+
+MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED, divided_by_their_sum.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

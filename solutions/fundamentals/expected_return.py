@@ -65,6 +65,16 @@ def one_start(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"start": {next(iter(given.start)): Fraction(1)}}), work)
 
 
+@slip(
+    "starts-alike",
+    "The start states need not be equally probable: each counts with its own probability.",
+    when=lambda given: given.known is None and len(given.start) > 1,
+)
+def starts_alike(given: Given, work: Work) -> None:
+    """Every start state with the same probability."""
+    solve(given.model_copy(update={"start": dict.fromkeys(given.start, Fraction(1, len(given.start)))}), work)
+
+
 MISCONCEPTIONS = (
     UNWEIGHTED,
     BEST_EPISODE,
@@ -72,6 +82,7 @@ MISCONCEPTIONS = (
     POLICY_DROPPED,
     LAST_BRANCH_DROPPED,
     one_start.where_it_shows(),
+    starts_alike.where_it_shows(),
     replace(equal_chances(solve), when=lambda given: given.known is None and given.policy is not None),
 )
 

@@ -56,11 +56,12 @@ def _completed(given: Given, work: Work) -> Given:
     share = _probability(given, work, hidden[:2], hidden.next)
     wanted = _probability(given, work, other, hidden.next)
     work.say("Both must be the same:")
-    count = work.answer(work.equate(str(hidden.weight), share, wanted))
+    found = work.equate(str(hidden.weight), share, wanted)
+    if work.misconception is None and is_rational(found) and not given.probabilities and (found < 0 or found.q != 1):
+        raise NoSolution(f"the missing count would have to be {told(found)}, and counts are whole numbers")
+    count = work.answer(found)  # somebody's own need not be a whole number
     if not is_rational(count):
         raise NoSolution("the missing count must be a number")
-    if work.misconception is None and not given.probabilities and (count < 0 or count.q != 1):
-        raise NoSolution(f"the missing count would have to be {told(count)}, and counts are whole numbers")
     rows = [row._replace(weight=Fraction(int(count.p), int(count.q))) if row == hidden else row for row in given.table]
     return given.model_copy(update={"table": tuple(rows)})
 

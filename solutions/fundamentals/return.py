@@ -11,6 +11,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import (
     FIRST_DISCOUNTED,
+    LAST_LEFT_OUT,
     LINEAR_DISCOUNT,
     RETURN,
     RETURN_RECURSIVE,
@@ -21,7 +22,14 @@ from rldrill.solutions.sheet.fundamentals import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (FIRST_DISCOUNTED, STARTS_EARLY, UNDISCOUNTED, LINEAR_DISCOUNT, STEP_UNDISCOUNTED)
+MISCONCEPTIONS = (
+    FIRST_DISCOUNTED,
+    STARTS_EARLY,
+    UNDISCOUNTED,
+    LINEAR_DISCOUNT,
+    STEP_UNDISCOUNTED,
+    LAST_LEFT_OUT.where_it_shows(),
+)
 
 
 # "return" is a keyword, so the twin cannot be imported by name; hence Any.

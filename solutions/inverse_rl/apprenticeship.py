@@ -13,6 +13,7 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
     DISTANCE_SQUARED,
+    FROM_THE_NEW_POLICY,
     OTHER_END,
     PROJECTION,
     PROJECTION_LENGTH,
@@ -127,6 +128,7 @@ MISCONCEPTIONS = (
     from_first.where_it_shows(),
     DISTANCE_SQUARED.where_it_shows(),
     OTHER_END.where_it_shows(),
+    FROM_THE_NEW_POLICY.where_it_shows(),
 )
 
 

@@ -15,7 +15,7 @@ from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, MAX_MARGIN_BOUND, REW
 from rldrill.solutions.work import Work
 
 
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, *, divided: bool = True) -> None:
     """Values; then constraint by constraint with a slack; then the slack that is needed."""
     mus = {EXPERT: given.expert} | {name: rival.mu for name, rival in given.policies.items()}
     known: dict[str, Any] = {
@@ -26,7 +26,7 @@ def solve(given: Given, work: Work) -> None:
     worth = {name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus}
     margins = {EXPERT: ZERO} | {name: exact(rival.margin) for name, rival in given.policies.items()}
     if given.asked_for:
-        _balance(given, work, given.asked_for, worth, margins)
+        _balance(given, work, given.asked_for, worth, margins, divided=divided)
         return
     worth = dict(zip(worth, work.answer(tuple(worth.values())), strict=True))
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
@@ -56,20 +56,23 @@ def _counted(holding: int, count: int) -> str:
     return f"{holding or 'none'} of the {count} constraints {'hold' if holding > 1 else 'holds'}"
 
 
-def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margins: dict[str, Any]) -> None:
+def _balance(
+    given: Given, work: Work, letter: str, worth: dict[str, Any], margins: dict[str, Any], *, divided: bool
+) -> None:
     """The open weight at which each constraint holds with equality; the greatest of these is enough for all."""
     work.recall(MAX_MARGIN)
     work.say("With $ξ = 0$ the right side of each constraint is:")
-    least = {}
+    least, place = {}, given.w.index(letter)
     for name in given.policies:
         right = work.step(MAX_MARGIN_BOUND, policy=name, worth=worth, margin=margins, xi=ZERO)
         work.say("Both sides are equal for:")
         least[name] = work.equate(letter, worth[EXPERT], right)
+        if not divided:
+            least[name] *= exact(given.expert[place]) - exact(given.policies[name].mu[place])
     least = work.answer(least)
     enough = largest(tuple(least.values()))
     open_ = shown(Parameter(letter))
     each = ", ".join(f"{open_} ≥ {value}" for value in least.values())
-    place = given.w.index(letter)
     more = ", ".join(f"{shown(given.expert[place])} > {shown(rival.mu[place])}" for rival in given.policies.values())
     work.say(
         f"The expert has more of feature ${place + 1}$ than every other policy, ${more}$, so each constraint is a "
@@ -106,7 +109,18 @@ def margin_on_the_wrong_side(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"policies": rivals}), work)
 
 
-MISCONCEPTIONS = (margin_on_the_wrong_side, SUM_FOR_MAXIMUM)
+@slip(
+    "not-divided",
+    "The last thing to do is to divide by what the open weight is multiplied with: the expert's feature minus the "
+    "other policy's.",
+    when=lambda given: given.asked_for is not None,
+)
+def not_divided(given: Given, work: Work) -> None:
+    """The open weight times what stands before it."""
+    solve(given, work, divided=False)
+
+
+MISCONCEPTIONS = (margin_on_the_wrong_side, SUM_FOR_MAXIMUM, not_divided.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

@@ -74,8 +74,11 @@ def _applied(given: Given, work: Work, formula: Formula, known: Mapping[str, Any
     return matrices.matrix([[work.step(formula, **numbers)]])
 
 
-def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
-    """First derivatives, then second derivatives: of the reward, of the dynamics, and from them of Q."""
+def _expanded(given: Given, work: Work, *, halved: bool = False) -> dict[str, AnyMatrix]:
+    """First derivatives, then second derivatives: of the reward, of the dynamics, and from them of Q.
+
+    With ``halved`` the 2 in the second derivative of a square is lost.
+    """
     names, actions = given.states, tuple(given.action)
     known: dict[str, Any] = {
         "V_s": matrices.column(map(exact, given.gradient)),
@@ -118,7 +121,8 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
         ("aa", formulas.aa, actions, actions),
     ):
         of_r, of_f = (derivative_of(head, code) for head in "rf") if scalar else (reward_second(), SECOND_DERIVATIVE)
-        known[f"r_{code}"] = _second(work, of_r, values, given.reward, "r", rows, columns)
+        bent = _second(work, of_r, values, given.reward, "r", rows, columns)
+        known[f"r_{code}"] = _halved(given, bent, rows, columns) if halved else bent
         known[f"fi{code}"] = {
             number: _second(work, of_f, values, text, index, rows, columns)
             for number, (index, text) in enumerate(texts.items(), 1)
@@ -163,6 +167,20 @@ def _second(
     return matrices.matrix([found[frozenset((first, then))] for then in columns] for first in rows)
 
 
+def _halved(given: Given, bent: AnyMatrix, rows: tuple[str, ...], columns: tuple[str, ...]) -> AnyMatrix:
+    """Second derivatives in which a square leaves no 2 behind: those that are the same everywhere."""
+    moving = {dynamics.symbol(name) for name in (*given.states, *given.action)}
+
+    def of_square(first: str, then: str) -> bool:
+        return first == then and not dynamics.second(given.reward, first, then).free_symbols & moving
+
+    lines = zip(rows, bent.tolist(), strict=True)
+    return matrices.matrix(
+        [entry / 2 if of_square(first, then) else entry for then, entry in zip(columns, line, strict=True)]
+        for first, line in lines
+    )
+
+
 def _second_of(of: str) -> Callable[..., Any]:
     """The second derivatives of something that has a name, by the last two of their indices."""
     return lambda *by: second(put_in_name(of), *by[-2:])
@@ -196,11 +214,23 @@ DDP_FOR_ILQR = slip(
     "iLQR takes the dynamics as linear: their second derivatives, which DDP adds, are left out.",
     when=lambda given: not given.second_order,
 )(other_method)
+
+
+@slip(
+    "two-of-a-square-lost",
+    "The second derivative of c x² is 2c: differentiating the square brings the 2 down, and it stays.",
+)
+def two_lost(given: Given, work: Work) -> None:
+    """The reward's second derivatives without the 2 of its squares."""
+    _maximum(given, work, _expanded(given, work, halved=True))
+
+
 MISCONCEPTIONS = (
     ILQR_FOR_DDP,
     DDP_FOR_ILQR,
     K_WITH_PLUS,
     OLD_ACTION_FORGOTTEN.where_it_shows(),
+    two_lost.where_it_shows(),
 )
 
 

@@ -16,10 +16,11 @@ from rldrill.solutions.sheet.policy_gradient import (
     CRITIC,
     CRITIC_WITHOUT_ALPHA,
     NEXT_VALUE_FORGOTTEN,
+    OTHER_SUBTRACTED,
     TD_ERROR,
     WEIGHTED_BY_REWARD,
 )
-from rldrill.solutions.softmax import by_number, chances, known_run, log_gradient, score
+from rldrill.solutions.softmax import by_number, chances, exponentials_added, known_run, log_gradient, score
 from rldrill.solutions.work import Equality, Work
 
 
@@ -102,6 +103,8 @@ MISCONCEPTIONS = (
     swapped,
     error_late.where_it_shows(),
     CRITIC_WITHOUT_ALPHA.where_it_shows(),
+    OTHER_SUBTRACTED.where_it_shows(),
+    exponentials_added(solve),
 )
 
 

@@ -23,12 +23,19 @@ from rldrill.solutions.sheet.policy_gradient import (
     GAE,
     GAE_WITHOUT_GAMMA,
     GAE_WITHOUT_LAMBDA,
+    MEAN_FOR_STATE,
     NEXT_STATES_VALUE,
     TD_ERROR,
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (ADVANTAGE_SIGN, NEXT_STATES_VALUE, GAE_WITHOUT_LAMBDA, GAE_WITHOUT_GAMMA)
+MISCONCEPTIONS = (
+    ADVANTAGE_SIGN,
+    NEXT_STATES_VALUE,
+    MEAN_FOR_STATE.where_it_shows(),
+    GAE_WITHOUT_LAMBDA,
+    GAE_WITHOUT_GAMMA,
+)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -10,6 +10,8 @@ from rldrill.solutions.sheet.policy_gradient import (
     FIRST_RETURN_EVERYWHERE,
     GRADIENT_ASCENT,
     LOG_FORGOTTEN,
+    MEAN_OVER_STEPS,
+    OTHER_SUBTRACTED,
     REINFORCE,
     REINFORCE_ESTIMATE,
     REWARD_FOR_RETURN,
@@ -39,6 +41,8 @@ MISCONCEPTIONS = (
     LOG_FORGOTTEN,
     REWARD_FOR_RETURN,
     DISCOUNTED_AGAIN.where_it_shows(),
+    MEAN_OVER_STEPS.where_it_shows(),
+    OTHER_SUBTRACTED.where_it_shows(),
 )
 
 

@@ -14,6 +14,7 @@ from rldrill.solutions.sheet.policy_gradient import (
     DISCOUNTED_AGAIN,
     GRADIENT_ASCENT,
     LOG_FORGOTTEN,
+    OTHER_SUBTRACTED,
     REINFORCE_BASELINE,
 )
 from rldrill.solutions.softmax import discounted_returns, episode_gradient, known_run, returns, scores
@@ -42,6 +43,7 @@ MISCONCEPTIONS = (
     DESCENT,
     LOG_FORGOTTEN.where_it_shows(),
     DISCOUNTED_AGAIN.where_it_shows(),
+    OTHER_SUBTRACTED.where_it_shows(),
 )
 
 

@@ -11,8 +11,14 @@ from rldrill.solutions.formula.notation import pi
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.policy_gradient import EXPECTED_ADDED, FEATURES_ALIKE, FEATURES_ALONE, LOG_FORGOTTEN
-from rldrill.solutions.softmax import action_features, by_number, chances, log_gradient, score
+from rldrill.solutions.sheet.policy_gradient import (
+    EXPECTED_ADDED,
+    FEATURES_ALIKE,
+    FEATURES_ALONE,
+    LOG_FORGOTTEN,
+    OTHER_SUBTRACTED,
+)
+from rldrill.solutions.softmax import action_features, by_number, chances, exponentials_added, log_gradient, score
 from rldrill.solutions.work import Equality, Work
 
 
@@ -48,7 +54,14 @@ def _from_component(given: Given, component: Component, work: Work, known: Mappi
     return found
 
 
-MISCONCEPTIONS = (FEATURES_ALONE, EXPECTED_ADDED, LOG_FORGOTTEN.where_it_shows(), FEATURES_ALIKE.where_it_shows())
+MISCONCEPTIONS = (
+    FEATURES_ALONE,
+    EXPECTED_ADDED,
+    LOG_FORGOTTEN.where_it_shows(),
+    FEATURES_ALIKE.where_it_shows(),
+    OTHER_SUBTRACTED.where_it_shows(),
+    exponentials_added(solve),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -324,6 +324,11 @@ with evaluate(False):
         "The noise of the motion is in Σ̄ already: in the gain only that of the sensor is added to it.",
         when=_on_a_line,
     )
+    GAIN_BEFORE_THE_MOTION = Misconception(
+        "gain-before-the-motion",
+        "The gain weighs the belief after the motion: Σ̄, to which the motion has added its noise, not the old Σ.",
+        when=lambda given: any(any(line) for line in given.process),
+    )
     KALMAN_GAIN = Formula(
         "kalman-gain",
         Kt(t),
@@ -333,6 +338,9 @@ with evaluate(False):
         hint="The gain is the share of the predicted variance in the sum of predicted and sensor variance.",
         place=Place.BEYOND,
         misread={
+            GAIN_BEFORE_THE_MOTION: covariance(t - 1)
+            * Transposed(Ci)
+            * Pow(Ci * covariance(t - 1) * Transposed(Ci) + Qi, -1),
             VARIANCES_FOR_INVERSES: Qi * Pow(covariance_bar(t) + Qi, -1),
             NOISES_EXCHANGED: covariance_bar(t)
             * Transposed(Ci)

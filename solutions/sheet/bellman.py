@@ -183,6 +183,11 @@ with evaluate(False):
         "The optimal value takes the best action; it does not average over the actions.",
         when=lambda given: any(len(actions) > 1 for actions in given.mdp.actions.values()),
     )
+    MAXIMA_APART = Misconception(
+        "maxima-apart",
+        "Reward and next value belong to one action: add them up for every action, and take the greatest sum.",
+    )
+    NEXT_VALUE = SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a))
     BELLMAN_OPTIMALITY_RESIDUAL = Formula(
         "bellman-optimality-residual",
         Residual(s),
@@ -207,6 +212,8 @@ with evaluate(False):
         hint="Take the best action: the greatest of the actions' averages.",
         also=(MaxOver(Qstar(s, a), a, Actions(s)),),
         misread={
+            MAXIMA_APART: MaxOver(SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a)), a, Actions(s))
+            + gamma * MaxOver(SumOver(P(s, a, s1) * Vstar(s1), s1, Successors(s, a)), a, Actions(s)),
             BEST_OUTCOME: MaxOver(MaxOver(R(s, a, s1) + gamma * Vstar(s1), s1, Successors(s, a)), a, Actions(s)),
             Q_REWARD_UNWEIGHTED: MaxOver(
                 SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vstar(s1), s1, Successors(s, a)), a, Actions(s)

@@ -130,6 +130,15 @@ with evaluate(False):
         hint="The product of the diagonal, minus that of the other two entries.",
         place=Place.WORKING,
     )
+    TRANSPOSE_FOR_INVERSE = Misconception(
+        "transpose-for-inverse",
+        "The rates solve v = J ω, which takes the inverse of J; its transpose maps forces to torques.",
+    )
+    MINUSES_FORGOTTEN = Misconception(
+        "minuses-of-the-inverse-forgotten",
+        "In the inverse of a matrix of two rows those of the diagonal change places, and the other two entries get a "
+        "minus sign.",
+    )
     FIRST_RATE = Formula(
         "jacobian-inverse-1",
         rate(1),
@@ -138,6 +147,10 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 3.5",
         hint="By Cramer's rule: in the determinant above the line v takes the place of the first column of J.",
         place=Place.WORKING,
+        misread={
+            TRANSPOSE_FOR_INVERSE: Jx(1) * vx + Jy(1) * vy,
+            MINUSES_FORGOTTEN: (Jy(2) * vx + Jx(2) * vy) / determinant,
+        },
     )
     SECOND_RATE = Formula(
         "jacobian-inverse-2",
@@ -147,6 +160,10 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 3.5",
         hint="By Cramer's rule: in the determinant above the line v takes the place of the second column of J.",
         place=Place.WORKING,
+        misread={
+            TRANSPOSE_FOR_INVERSE: Jx(2) * vx + Jy(2) * vy,
+            MINUSES_FORGOTTEN: (Jx(1) * vy + Jy(1) * vx) / determinant,
+        },
     )
     SINGULAR = Formula(
         "jacobian-determinant",

@@ -652,6 +652,11 @@ with evaluate(False):
             BANDIT_WITHOUT_EXP: H(a) / SumOver(H(b), b, Choices),
         },
     )
+    OWN_MEAN_AS_BASELINE = Misconception(
+        "own-mean-as-baseline",
+        "The baseline is the mean of all rewards so far, whichever arm earned them, not of those of the arm pulled.",
+        when=lambda given: any(pull.arm == given.pulled.arm for pull in given.pulls),
+    )
     REWARD_BASELINE = Formula(
         "reward-baseline",
         rbar(n),
@@ -660,6 +665,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 2.8",
         hint="The baseline is the mean of all rewards so far, whichever arm earned them.",
         place=Place.WORKING,
+        misread={
+            OWN_MEAN_AS_BASELINE: SumOver(r(i) * Indicator(A(i), A(n + 1)), i, Counting(1, n))
+            / SumOver(Indicator(A(i), A(n + 1)), i, Counting(1, n)),
+        },
     )
     BASELINE_FORGOTTEN = Misconception(
         "baseline-forgotten", "What counts is how far the reward is above or below the baseline, not the reward itself."

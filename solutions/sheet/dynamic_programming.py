@@ -46,6 +46,8 @@ from rldrill.solutions.sheet.bellman import (
     LOOKAHEAD_PI,
     LOOKAHEAD_STAR,
     MAX_FOR_MEAN,
+    MAXIMA_APART,
+    NEXT_VALUE,
     OPTIMAL_Q_BY_REWARD,
     Q_REWARD_UNWEIGHTED,
     REWARD_UNWEIGHTED,
@@ -158,6 +160,7 @@ with evaluate(False):
             FORGOT_GAMMA: MaxOver(WITHOUT_GAMMA, a, Actions(s)),
             Q_REWARD_UNWEIGHTED: MaxOver(REWARD_UNWEIGHTED, a, Actions(s)),
             BEST_OUTCOME: MaxOver(MaxOver(R(s, a, s1) + gamma * V(s1), s1, Successors(s, a)), a, Actions(s)),
+            MAXIMA_APART: MaxOver(_REWARD, a, Actions(s)) + gamma * MaxOver(NEXT_VALUE, a, Actions(s)),
         },
     )
 
@@ -262,6 +265,10 @@ with evaluate(False):
     ONE_POWER_SHORT = Misconception(
         "one-power-short", "V₀ has seen no sweep, so the first one shrinks the error already: k sweeps give γᵏ."
     )
+    FACTOR_OF_THE_CHANGE = Misconception(
+        "factor-of-the-change",
+        "γᵏ/(1 − γ) is the factor of what the first sweep changes; of the distance from V* γᵏ is left.",
+    )
     CONTRACTION = Formula(
         "contraction",
         Distance(k),
@@ -274,6 +281,7 @@ with evaluate(False):
         misread={
             FORGOT_DISTANCE: gamma**k,
             ONE_POWER_SHORT: gamma ** (k - 1) * Distance(0),
+            FACTOR_OF_THE_CHANGE: gamma**k / (1 - gamma) * Distance(0),
         },
     )
     CHANGE_FOR_ERROR = Misconception(

@@ -152,6 +152,10 @@ with evaluate(False):
         "discounted-from-the-start",
         "The return from time t discounts the rewards by the steps from t on, not from the start of the episode.",
     )
+    LAST_LEFT_OUT = Misconception(
+        "last-reward-left-out",
+        "The return goes on to the end of the episode: the reward on entering its last state counts.",
+    )
     RETURN = Formula(
         "return",
         G(t),
@@ -166,6 +170,7 @@ with evaluate(False):
             UNDISCOUNTED: SumOver(r(t + 1 + i), i, _ALL),
             LINEAR_DISCOUNT: SumOver(gamma * i * r(t + 1 + i), i, _ALL),
             DISCOUNTED_FROM_START: SumOver(gamma ** (t + i) * r(t + 1 + i), i, _ALL),
+            LAST_LEFT_OUT: SumOver(gamma**i * r(t + 1 + i), i, Counting(0, T - t - 2)),
         },
     )
 

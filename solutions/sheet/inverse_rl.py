@@ -271,6 +271,9 @@ with evaluate(False):
             * Pow(SumOver((mu_expert(i) - mu_bar(i)) ** 2, i, Features), -1),
         },
     )
+    FROM_THE_NEW_POLICY = Misconception(
+        "from-the-new-policy", "The share c of the way is gone from the old point μ̄ on, not from the new policy's μ(π)."
+    )
     PROJECTION = Formula(
         "projection",
         mu_bar(j),
@@ -280,6 +283,9 @@ with evaluate(False):
         hint="Go the share c of the way from the old point to the feature expectations of the new policy.",
         sign="←",
         place=Place.BEYOND,
+        misread={
+            FROM_THE_NEW_POLICY: mu_now(j) + step_length * (mu_now(j) - mu_bar(j)),
+        },
     )
     WEIGHTS = Formula(
         "apprenticeship-weights",

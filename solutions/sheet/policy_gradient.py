@@ -123,6 +123,12 @@ def _several_steps(given: Any) -> bool:
     return len(given.trajectory.rewards) > 1
 
 
+def _two_actions(given: Any) -> bool:
+    """Whether there are two actions to choose from, in one state or in every state."""
+    rows = [*given.features.values()]
+    return all(len(row) == 2 for row in rows) if isinstance(rows[0], dict) else len(rows) == 2
+
+
 def _has_later_errors(given: Any) -> bool:
     """Whether an advantage is estimated along a run of several steps."""
     return given.run is not None and len(given.run.trajectory.rewards) > 1
@@ -285,6 +291,12 @@ with evaluate(False):
         "own-share-alone",
         "The expected features are those of all actions, each with its own; not π(a|s) f(s, a) alone.",
     )
+    OTHER_SUBTRACTED = Misconception(
+        "other-action-subtracted",
+        "The expected features are subtracted, in which each action counts with its probability, the one taken, too; "
+        "not the features of the other action.",
+        when=_two_actions,
+    )
     SCORE_FUNCTION = Formula(
         "score-function",
         score(a, s),
@@ -298,6 +310,7 @@ with evaluate(False):
             EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices),
             LOG_FORGOTTEN: pi(a, s) * (f_vector(s, a) - SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices)),
             OWN_SHARE_ALONE: (1 - pi(a, s)) * f_vector(s, a),
+            OTHER_SUBTRACTED: f_vector(s, a) - SumOver((1 - Indicator(a1, a)) * f_vector(s, a1), a1, Choices),
             FEATURES_ALIKE: f_vector(s, a) - Pow(Size(Choices), -1) * SumOver(f_vector(s, a1), a1, Choices),
         },
     )
@@ -408,6 +421,12 @@ with evaluate(False):
         "The action value is compared with V(s) of the state itself, not with the value of what follows.",
         when=lambda given: given.lookahead is not None,
     )
+    MEAN_FOR_STATE = Misconception(
+        "mean-for-state-value",
+        "The action value is compared with V(s), in which each action counts with its probability π(a|s), not with "
+        "the plain mean of the action values.",
+        when=lambda given: given.lookahead is not None,
+    )
     ADVANTAGE = Formula(
         "advantage",
         Adv(s, a),
@@ -417,6 +436,7 @@ with evaluate(False):
         hint="How much better the action is than what the policy does on average in this state.",
         misread={
             ADVANTAGE_SIGN: Vpi(s) - Qpi(s, a),
+            MEAN_FOR_STATE: Qpi(s, a) - MeanOver(Qpi(s, a1), a1, Actions(s)),
             NEXT_STATES_VALUE: Qpi(s, a) - SumOver(P(s, a, s1) * Vpi(s1), s1, Successors(s, a)),
         },
     )

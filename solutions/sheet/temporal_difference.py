@@ -166,6 +166,10 @@ with evaluate(False):
         "The value is that of the state that is reached after n steps, not of the one that the return starts from.",
     )
     FROM_TIME_0 = Misconception("from-time-0", "The return from time t begins with the reward rₜ₊₁, not with r₁.")
+    BOOTSTRAP_ONE_STATE_SHORT = Misconception(
+        "bootstrap-one-state-short",
+        "After n rewards the agent is in the state sₜ₊ₙ: it is its value that counts, not that of the state before it.",
+    )
     N_STEP_RETURN = Formula(
         "n-step-return",
         Gn(t, n),
@@ -179,6 +183,7 @@ with evaluate(False):
             BOOTSTRAP_ONE_SHORT: _REWARDS + gamma ** (n - 1) * V(S(t + n)),
             ONE_REWARD_TOO_MANY: SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n)) + gamma**n * V(S(t + n)),
             BOOTSTRAP_AT_START: _REWARDS + gamma**n * V(S(t)),
+            BOOTSTRAP_ONE_STATE_SHORT: _REWARDS + gamma**n * V(S(t + n - 1)),
             FROM_TIME_0: SumOver(gamma**i * r(1 + i), i, Counting(0, n - 1)) + gamma**n * V(S(n)),
         },
     )
@@ -338,6 +343,19 @@ with evaluate(False):
         "mean-of-old-and-new",
         "The old value stands for all returns before; the new one counts 1/n(s), 1/2 only at the second visit.",
     )
+    OLD_MEAN_ONCE = Misconception(
+        "old-mean-counted-once",
+        "The old value stands for all n(s) − 1 returns before, so it counts n(s) − 1 times before everything is "
+        "divided by n(s).",
+    )
+    SUM_NOT_DIVIDED = Misconception(
+        "sum-not-divided", "An average is the sum of all returns divided by their number: divide by n(s)."
+    )
+    NEW_RETURN_NOT_COUNTED = Misconception(
+        "new-return-not-counted",
+        "The new return is one of those that are averaged: the sum of all is divided by n(s), this visit included.",
+        when=lambda given: given.visited_before,
+    )
     SAMPLE_AVERAGE = Formula(
         "sample-average",
         V(S(t)),
@@ -351,6 +369,9 @@ with evaluate(False):
             NOT_COUNTED: V(S(t)) + Pow(N(S(t)) - 1, -1) * (G(t) - V(S(t))),
             COUNTED_TWICE: V(S(t)) + Pow(N(S(t)) + 1, -1) * (G(t) - V(S(t))),
             MEAN_OF_TWO: (V(S(t)) + G(t)) * Pow(2, -1),
+            OLD_MEAN_ONCE: (V(S(t)) + G(t)) / N(S(t)),
+            SUM_NOT_DIVIDED: (N(S(t)) - 1) * V(S(t)) + G(t),
+            NEW_RETURN_NOT_COUNTED: ((N(S(t)) - 1) * V(S(t)) + G(t)) / (N(S(t)) - 1),
         },
     )
 

@@ -121,6 +121,18 @@ def monte_carlo_for_td(given: Given, work: Work) -> None:
 
 
 @slip(
+    "monte-carlo-value-ahead",
+    "The targets of batch TD(0) take the value that TD(0) itself gives the next state, not Monte Carlo's.",
+    when=_leads_on,
+)
+def monte_carlo_ahead(given: Given, work: Work) -> None:
+    """One-step targets from the values of the first part."""
+    known = _known(given)
+    seen = work.answer(_monte_carlo(given, work, known)) | {END: ZERO}
+    work.answer({state: work.step(BATCH_TD, s=state, V=seen, **known) for state in given.states})
+
+
+@slip(
     "other-visits",
     "First-visit Monte Carlo counts a state once in an episode, every-visit Monte Carlo once for each of its visits.",
     when=lambda given: given.visits == "first",
@@ -141,7 +153,13 @@ def times_ignored(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"episodes": once}), work)
 
 
-MISCONCEPTIONS = (td_for_monte_carlo, monte_carlo_for_td, other_visits, times_ignored.where_it_shows())
+MISCONCEPTIONS = (
+    td_for_monte_carlo,
+    monte_carlo_for_td,
+    monte_carlo_ahead.where_it_shows(),
+    other_visits,
+    times_ignored.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -8,6 +8,7 @@ from rldrill.problems.runs import Trajectory, per_step
 from rldrill.problems.temporal_difference.lambda_return import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
@@ -22,24 +23,17 @@ from rldrill.solutions.sheet.temporal_difference import (
     LAMBDA_RETURN_CUT_OFF,
     POWER_ONE_LATE,
 )
-from rldrill.solutions.temporal_difference.n_step_return import n_step
+from rldrill.solutions.temporal_difference.n_step_return import n_step, worth_as_before
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (
-    FORGOT_ONE_MINUS_LAMBDA,
-    FORGOT_CLOSING,
-    CLOSING_LIKE_OTHERS,
-    POWER_ONE_LATE,
-    STEP_UNDISCOUNTED,
-    LAMBDA_EXCHANGED.where_it_shows(),
-    AVERAGED_ALIKE.where_it_shows(),
-)
 
-
-def solve(given: Given, work: Work) -> None:
-    """First what is averaged, then the average."""
+def solve(given: Given, work: Work, *, paid: bool = False) -> None:
+    """First what is averaged, then the average; an end that is ``paid`` is worth what the state before it is."""
     known = known_episode(given)
     returns = averaged(work, known, given.time)
+    if paid:
+        last = n_step(work, worth_as_before(given.trajectory, known), given.time, known["T"] - given.time)
+        returns = (*returns[:-1], last)
     if given.in_parts:
         returns = work.answer(returns)
     work.say(f"The {'episode' if known['ends'] else 'run'} ends at $T = {known['T']}$.")
@@ -88,6 +82,28 @@ def average(work: Work, known: Mapping[str, Any], time: int, returns: Sequence[V
         return work.step(LAMBDA_RETURN_CUT_OFF, t=time, Gn=Gn, T=known["T"], lam=known["lam"])
     *_, whole = returns
     return work.step(LAMBDA_RETURN, t=time, Gn=Gn, G={time: whole}, T=known["T"], lam=known["lam"])
+
+
+@slip(
+    "value-after-the-end",
+    "In a terminal state the episode is over: no value is added to the return, that of the state before it neither.",
+    when=lambda given: given.trajectory.ends,
+)
+def value_after_the_end(given: Given, work: Work) -> None:
+    """The end as if it were worth what the state before it is."""
+    solve(given, work, paid=True)
+
+
+MISCONCEPTIONS = (
+    FORGOT_ONE_MINUS_LAMBDA,
+    FORGOT_CLOSING,
+    CLOSING_LIKE_OTHERS,
+    POWER_ONE_LATE,
+    STEP_UNDISCOUNTED,
+    LAMBDA_EXCHANGED.where_it_shows(),
+    AVERAGED_ALIKE.where_it_shows(),
+    value_after_the_end.where_it_shows(),
+)
 
 
 def backwards(given: Any) -> Array:

@@ -5,16 +5,18 @@ from typing import Any
 
 from rldrill.problems.exact import Scalar
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.runs import per_step
+from rldrill.problems.runs import Trajectory, per_step
 from rldrill.problems.temporal_difference.n_step_return import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     BOOTSTRAP_AT_START,
     BOOTSTRAP_ONE_SHORT,
+    BOOTSTRAP_ONE_STATE_SHORT,
     BOOTSTRAP_UNDISCOUNTED,
     FROM_TIME_0,
     N_STEP_RETURN,
@@ -23,27 +25,23 @@ from rldrill.solutions.sheet.temporal_difference import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (
-    BOOTSTRAP_UNDISCOUNTED,
-    BOOTSTRAP_ONE_SHORT,
-    ONE_REWARD_TOO_MANY,
-    STEP_UNDISCOUNTED,
-    BOOTSTRAP_AT_START.where_it_shows(),
-    FROM_TIME_0.where_it_shows(),
-)
 
+def solve(given: Given, work: Work, *, paid: bool = False) -> None:
+    """One application for every part; where the first return is known, what was left open comes before the others.
 
-def solve(given: Given, work: Work) -> None:
-    """One application for every part; where the first return is known, what was left open comes before the others."""
+    An end that is ``paid`` is worth what the state before it is, and longer returns than to the end are those to it.
+    """
     read: Callable[[Scalar], Value] = exact
-    asked = given.asked
+    known_from = _known_paid if paid else _known
+    asked, end = given.asked, len(given.trajectory.rewards)
+    if paid:
+        asked = tuple((time, min(steps, end - time)) for time, steps in asked)
     if given.known is not None:
         time, steps = asked[0]
-        first = n_step(work, _known(given, exact), time, steps)
+        first = n_step(work, known_from(given, exact), time, steps)
         letter = find(given, work, first, f"R_{{{time}}}^{{({steps})}}")
         read, asked = reading(letter), asked[1:]
-    known = _known(given, read)
-    end = len(given.trajectory.rewards)
+    known = known_from(given, read)
     for time, steps in asked:
         if time + steps > end:
             work.say(f"The episode ends at $t = {end}$. All later rewards are $0$, so this is the whole return:")
@@ -75,6 +73,37 @@ def n_step(work: Work, known: Mapping[str, Any], time: int, steps: int) -> Value
         start = time + steps - n
         value = work.step(N_STEP_RETURN_STEP_BY_STEP, t=start, n=n, Gn={(start + 1, n - 1): value}, **known)
     return value
+
+
+@slip(
+    "value-after-the-end",
+    "In a terminal state the episode is over: no value is added to the rewards, that of the state before it neither.",
+    when=lambda given: given.trajectory.ends and max(map(sum, given.asked)) >= len(given.trajectory.rewards),
+)
+def value_after_the_end(given: Given, work: Work) -> None:
+    """The end as if it were worth what the state before it is."""
+    solve(given, work, paid=True)
+
+
+def _known_paid(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
+    return worth_as_before(given.trajectory, _known(given, read))
+
+
+def worth_as_before(run: Trajectory, known: Mapping[str, Any]) -> dict[str, Any]:
+    """What is known of a run, with the value of the last state that is left for that of its end."""
+    return {**known, "V": known["V"] | dict.fromkeys(run.terminal, known["V"][run.states[-2]])}
+
+
+MISCONCEPTIONS = (
+    BOOTSTRAP_UNDISCOUNTED,
+    BOOTSTRAP_ONE_SHORT,
+    ONE_REWARD_TOO_MANY,
+    STEP_UNDISCOUNTED,
+    BOOTSTRAP_AT_START.where_it_shows(),
+    BOOTSTRAP_ONE_STATE_SHORT.where_it_shows(),
+    FROM_TIME_0.where_it_shows(),
+    value_after_the_end.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

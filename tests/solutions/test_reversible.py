@@ -6,10 +6,12 @@ from typing import Any
 import pytest
 from flint import fmpq
 
+import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.family import Problem
+from rldrill.solutions.answers.judging import Outcome
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import NoSolution
@@ -63,6 +65,10 @@ def test_a_missing_count_is_in_proportion() -> None:
     assert answers["a"] == 3
     assert answers["b"]["c", "b"] == fmpq(3, 5)
     assert answers["c"] is False
+    # With somebody's own x = 1/2 it is 1/2 of 5/2, so 1/5 after (c, b).
+    exercise = rldrill.read({"family": "markov-property", "given": {"table": table, "asked": "p"}})
+    graded = exercise.grade({"a": "1/2", "b": "3/5, 1/5, 1/2, 1/3"})
+    assert graded.parts[1].outcome is Outcome.FOLLOW_THROUGH
 
 
 REVERSIBLE = (

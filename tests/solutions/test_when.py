@@ -26,6 +26,10 @@ OTHER_QUESTION = {
     "weights-interleaved-beside-the-open-one": "where no weight is open it is the one above",
     "width-forgotten": "b is asked or used before",
     "outer-step-from-adapted": "each of several tasks has an adapted parameter of its own",
+    "divided-by-their-sum": "beside features that are known those asked for are not all",
+    "other-action-subtracted": "of three actions no one is the other",
+    "lengths-exchanged": "of more than two links several could be exchanged",
+    "value-kept-at-the-end": "where a value is missing, its equation comes first",
     "absolute-rates": "of more than two links it is not worked out",
     "update-for-target": "the step size is not stated where no target needs it, or is asked for",
 }
