@@ -14,6 +14,7 @@ from rldrill.problems.valued import with_reward, worth
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, NoSolution, Value, equals, exact, is_zero
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.notation import MaxOver
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, root, swept, tensors
@@ -87,8 +88,9 @@ def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
     beaten = f"{begun(joined(less))} {'is' if len(less) == 1 else 'are'} worth less than {of_state}"
     work.say(f"{beaten}, so {row.action} must reach it:")
     if work.misreads(BELLMAN_OPTIMALITY_RESIDUAL):
-        alone = known if work.misconception == RESIDUAL_MEAN else known | {"actions": {row.state: (row.action,)}}
-        misread = work.value(BELLMAN_OPTIMALITY_RESIDUAL, s=row.state, **alone)
+        of_one = work.reading(BELLMAN_OPTIMALITY_RESIDUAL).has(MaxOver)  # the action is to be the best one
+        alone = {"actions": {row.state: (row.action,)}} if of_one else {}
+        misread = work.value(BELLMAN_OPTIMALITY_RESIDUAL, s=row.state, **known | alone)
         reward = work.equate(letter, misread, ZERO)
     else:
         reward = work.equate(letter, worths[row.action], V[row.state])

@@ -11,8 +11,8 @@ from rldrill.problems.models import Model
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, NotGiven, Value, exact, largest, sign, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.formula.notation import MaxOver, V, numbered
 from rldrill.solutions.formula.notation import Q as ActionValue
-from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
@@ -78,7 +78,7 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     work.say(f"Sweep 1 in {joined(others)}:")
     first = start | {each: work.step(sweep, s=each, V=start, into=numbered(V, 1), **known) for each in others}
     target = exact(given.outcome[state])
-    averaging = work.misconception == MEAN_FOR_MAX  # then every action counts, and both equations are linear
+    averaging = not work.reading(sweep).has(MaxOver)  # then every action counts, and both equations are linear
     if averaging:
         unknown = generator("y")
         value = work.equate("y", work.value(sweep, s=state, V=first | {row.state: unknown}, **known), target)
