@@ -75,6 +75,8 @@ _LAST_NAME = re.compile(rf"{_NAME.pattern}\Z")
 _TIMES = re.compile(r"(?<=[\d)])\s*\(")
 #: An angle in degrees.
 _DEGREES = re.compile(r"([\d.]+)\s*°")
+#: The letter of an error stands for nothing else.
+_ERROR = "δ"
 #: A comparison is no equation.
 _RELATION = re.compile(r"[<>≤≥≠]")
 #: What stands between the numbers of a list.
@@ -506,10 +508,10 @@ class _Follower:
 
     def _of_own_name(self, text: str, label: str, last: Entries, worked: Numbers | None, told: bool) -> Line:
         """A line with a name that no step has: what is asked for, or else it is right where it is worked out so."""
-        asked = self._answer(label, len(last)) or self._parts_called(label)
-        if asked:
-            if any(self._all_same(last, values) for values in asked):
-                return Line(text, self._standing)
+        asked, parts = self._answer(label, len(last)), self._parts_called(label)
+        if any(self._all_same(last, values) for values in (*asked, *parts)):
+            return Line(text, self._standing)
+        if asked or (parts and spelled(label).startswith(_ERROR)):
             wrong = not (told or self.lost or self.values)
             return Line(text, Standing.DEPARTS if wrong else Standing.UNREAD)
         if any(self._all_same(last, [value]) for value in self._noted.get(plain_name(label), ())):
@@ -530,7 +532,9 @@ class _Follower:
         for number in self._order(None):
             right, known = self.state.sources[number]
             for letter, part in parts_with_letters(right):
-                if letter == spelled(label).rstrip("0123456789") and (value := value_or_none(part, known)) is not None:
+                if letter != spelled(label).rstrip("0123456789") or letter in known:
+                    continue
+                if (value := value_or_none(part, known)) is not None:
                     found.append([value])
         return found
 

@@ -99,6 +99,10 @@ def _in(part: Expr) -> Iterator[Place]:
     for each in inner:
         if isinstance(each, Expr):
             yield from _in(each)
+    if part.is_Mul and inner[0] == -1:  # the bracket of −(a + b) opened
+        for each in inner:
+            opened = zip(each.args, map(_worth, each.args), strict=True) if each.is_Add else ()
+            yield from (Place(-value, (term,)) for term, value in opened if value is not None)
     if part.is_Add or part.is_Mul:
         kept = [each for each in inner if each != -1]
         worths = [_worth(each) for each in kept]

@@ -112,6 +112,11 @@ def test_what_is_true_and_no_step_is_passed_over(line: str) -> None:
     assert standings(UPDATE, line) == ["unread"]
 
 
+@pytest.mark.parametrize(("line", "standing"), [("δ = 4", "right"), ("δ = 5", "departs"), ("R = 5", "unread")])
+def test_the_letter_of_an_error_is_known(line: str, standing: str) -> None:
+    assert standings(UPDATE, line) == [standing]
+
+
 #: Without γ: 8 + 1/2·(8 + 8 − 8) = 12, which is the target, too: the numbers tell them apart.
 def test_a_step_with_one_thing_changed_is_found_without_a_name() -> None:
     followed = UPDATE.follow(["8 + 1/2*(8 + 8 - 8) = 12"])
