@@ -453,7 +453,8 @@ class _Follower:
             if self._is_beside(label, last):
                 return Line(text, self._standing)
             return Line(text, Standing.UNREAD) if told else self._departed(text, named, last, certain=True)
-        worked = _worked_with(text) if len(last) == 1 else None
+        a_number = alone and not is_rational(last[0].value)  # 5π/6 is worked out no further
+        worked = _worked_with(text) if len(last) == 1 and not a_number else None
         if label:
             return self._of_own_name(text, label, last, worked, told)
         if any(side is not None and self._holds_letter(*side) for side in sides) and len(sides) > 1:

@@ -124,6 +124,12 @@ def test_a_step_with_one_thing_changed_is_found_without_a_name() -> None:
     assert "γ is missing" in followed.sentence
 
 
+def test_a_number_that_is_worked_out_no_further_is_a_bare_one() -> None:
+    # h(search) = ln 2 + ln 2 + ln 2
+    assert standings(SOFTMAX, "3 ln 2") == ["right"]
+    assert standings(SOFTMAX, "4 ln 2") == ["departs"]
+
+
 def test_the_answer_is_right_behind_a_number_that_nothing_explains() -> None:
     assert standings(UPDATE, "999/7", "10") == ["departs", "right"]
 
