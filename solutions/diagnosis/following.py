@@ -6,48 +6,95 @@ from contextlib import suppress
 from enum import Enum
 from functools import cached_property, partial
 from itertools import pairwise, product, starmap
+from math import prod
 from typing import Any, TypeAlias
-from unicodedata import combining, normalize
 
 from msgspec import Struct
 from msgspec.structs import replace
+from sympy import Expr
 
-from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Root, Row, Script
+from rldrill.problems.exact import PARAMETERS
+from rldrill.problems.notation import FUNCTIONS
+from rldrill.problems.parts import Number, Part, Values
+from rldrill.problems.parts import Numbers as Numbers_
 from rldrill.solutions.answers.rule import is_right
 from rldrill.solutions.answers.text import Reading, Unreadable, read_matrix, read_number
-from rldrill.solutions.diagnosis.alternatives import at_one, numbers, of_numbers, plain
+from rldrill.solutions.diagnosis.alternatives import LIKELY, at_one, numbers, of_numbers, plain, value_or_none
 from rldrill.solutions.diagnosis.causes import Cause
+from rldrill.solutions.diagnosis.on_the_way import Place, lines, places, worked_out
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
+from rldrill.solutions.diagnosis.saying import saying
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import approximate, near
-from rldrill.solutions.diagnosis.written_line import Numbers, by_the_numbers, numbers_typed, put_in_otherwise
-from rldrill.solutions.exact import NotReal, parameters, value_where
-from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.edits import probes
-from rldrill.solutions.formula.typesetting import typeset
+from rldrill.solutions.diagnosis.written_line import (
+    Numbers,
+    apart,
+    by_the_numbers,
+    numbers_in,
+    numbers_typed,
+    put_in_otherwise,
+    told_by,
+)
+from rldrill.solutions.diagnosis.written_names import (
+    letters,
+    names,
+    names_of,
+    of_another_index,
+    parts_with_letters,
+    plain_name,
+    readings,
+    spelled,
+)
+from rldrill.solutions.exact import NotReal, is_rational, parameters, value_where
+from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.matrices import is_matrix
-from rldrill.solutions.rational import generator
+from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.vector import Vector
-from rldrill.solutions.work import Equality, Step, Work
+from rldrill.solutions.work import Equality, Result, Step, Work
 
 #: Signs between the sides of a line.
 _SIDES = re.compile(r"=|←|≈|:(?!\d)")
 #: What leads from one value to the next, which need not be the same.
 _NEXT = re.compile(r"[⇒→]")
+#: Such signs as they may be typed.
+_TYPED = {"<-": "←", "->": "→", ":=": "="}
 #: What begins with a number, whatever sign or bracket it has, is no name.
 _NUMERIC = re.compile(r"[-+−(√\s]*[\d.]")
-#: Signs of a working: with one of them what can be read is none, either.
-_WORKED = re.compile(r"[-+−*·]")
+#: What is said before a value: so 5/2, the answer is 5/2.
+_SAID = re.compile(
+    r"\A\s*(?:so|thus|hence|then|therefore|(?:the\s+)?(?:answer|result)(?: is\b|\s*[=:]))(?=\W)\s*", re.I
+)
+#: A sign of a working, which no name has; a star behind a letter is one of its own, and so is a stroke between words.
+_OPERATED = re.compile(r"[+·×/]|(?<![^\W\d_])\*|\*(?=\s*\w)|(?<![^\W\d_])[-−]|[-−](?![^\W\d_])")
+#: What stands in brackets or bars, of a name; and a derivative, a name with a stroke.
+_BRACKETS, _DERIVATIVE = re.compile(r"\([^()]*\)|‖[^‖]*‖|\|[^|]*\|"), re.compile(r"[∂d]\S*\s*/\s*[∂d]\w")
+#: A name among numbers: V(cool), V^π(cool), R_1, μ̄.
+_NAME = re.compile(r"[^\W\d_][\w′'’\u0300-\u036f]*(?:\^\*|\^\([^()]*\)|\^\w+|\*(?=\())?(?:\([^()]*\))?")
+_LAST_NAME = re.compile(rf"{_NAME.pattern}\Z")
+#: A bracket behind a number is a factor.
+_TIMES = re.compile(r"(?<=[\d)])\s*\(")
+#: An angle in degrees.
+_DEGREES = re.compile(r"([\d.]+)\s*°")
+#: The letter of an error stands for nothing else.
+_ERROR = "δ"
+#: A comparison is no equation.
+_RELATION = re.compile(r"[<>≤≥≠]")
+#: What stands between the numbers of a list.
+_LISTED = re.compile(r"[,;]|\A\[")
+#: A side with names that may be worth more than this is not read.
+_MOST_VALUES = 64
+#: A line is worked out like another where at most one of so many numbers differs.
+_FEW = 3
+#: The letter that a part asks for: For which number $n$ of data points …?
+_LETTER = re.compile(r"(?:\w+ )?[Ww]h(?:ich|at)(?: is| must)?(?: [\w ]+?)? \$([^\W\d_])(?: = [^$]*)?\$(?!-)")
+#: The name of what a part asks for: What is the entry $B_{2 1}$ …?
+_QUANTITY = re.compile(r"What is (?:the [\w ]+ )?\$([^$]+)\$(?!-)")
 #: The number of a line before it.
 _COUNTED = re.compile(r"\A\s*(?:\(\w\)|\[\w\])\.?(?:\s+|\Z)")
 #: Between two equations on a line: V(cool) = 3, V(warm) = 4.
-_NEXT_ONE = re.compile(r"(?<=[\w.)\]])(?:[,;]| and)\s+(?=[^\W\d][\w′']*(?:\([^()]*\))?\s*[=≈←])")
+_NEXT_ONE = re.compile(r"(?<=[\w.)\]])(?:[,;]| and)\s+(?=[^\W\d][\w′']*(?:\^\w+)?(?:\([^()]*\))?\s*[=≈←])")
 #: Four words, one after the other: what is said in a sentence need not be a step.
 _SENTENCE = re.compile(r"(?<![^\W\d_])(?:[^\W\d_]{2,}+\s++){3}[^\W\d_]{2}")
-#: The brackets in which more than one sign is above or below a letter: V^(π₀)(cool).
-_SCRIPT = re.compile(r"[_^][({]([^(){}]*)[)}]")
-#: What stands behind a letter for a sign above it.
-_MARKS = re.compile(r"[′'’]|(?:bar|hat|tilde)(?=\W|\d|\Z)")
 #: What makes a value another one.
 _CHANGED = re.compile(r"←|⇒|→")
 #: What begins or ends so goes on with a line that is too long for the page, or is gone on with.
@@ -64,7 +111,6 @@ _ROW = re.compile("[⎡-⎦]")
 _FACTOR = re.compile(r"\A[^\W\d_]\s*\(")
 #: The time or number of an update, which is told before it: t = 2.
 _WHEN = re.compile(r"\A\s*[^\W\d_](?:_?\w)?\s*=\s*\d+\s*:(?=\s)")
-_WORDS = {"gamma": "γ", "alpha": "α", "delta": "δ", "lambda": "λ", "epsilon": "ε", "theta": "θ", "pi": "π", "rho": "ρ"}
 
 
 #: The numbers of one side of a line: one, or those of a vector or matrix, row by row.
@@ -113,23 +159,67 @@ def _goes_on(before: str, text: str) -> bool:
     return more or (before.endswith(_ENDS) and not text.startswith("="))
 
 
+class _State(Struct, frozen=True):
+    """What is expected at some place of a working: it changes with every line that departs.
+
+    Args:
+        values: what was found instead, by the numbers of the steps.
+        expected: what every step gives.
+        found: what stands in the answers, and in the equations of the working.
+        answers: the answers of every part.
+        sources: how every step is worked out: its right side, and what is known.
+    """
+
+    values: Mapping[int, Any]
+    expected: Mapping[int, Sequence[Any]]
+    found: Sequence[Sequence[Any]]
+    answers: Mapping[str, Any]
+    sources: Mapping[int, tuple[Any, Mapping[str, Any]]]
+
+
 class _Follower:
     def __init__(self, search: Search) -> None:
         self.search = search
-        self.values: dict[int, Any] = {}
         self.reached = -1
+        self.done: set[int] = set()
+        #: Whether an equation went wrong that gives no value, so that nothing is known of what follows from it.
+        self.lost = False
+        self.asked = _asked(search)
         self.letters: dict[str, list[Any]] = {}
         for found in search.work.letters:
             self.letters.setdefault(found.letter, []).append(found.value)
+        for letter, value in self.asked.items():
+            self.letters.setdefault(letter, [value])
         self.points = [dict(zip(self.letters, values, strict=True)) for values in product(*self.letters.values())]
         self.parameters = tuple({**dict.fromkeys(search.problem.parameters), **self.letters})
-        self.expected = {
-            each.number: entries for each in search.applications if (entries := numbers(each.value)) is not None
-        }
-        self.shapes = dict.fromkeys(_shape(each.value) for each in search.applications if _is_array(each.value))
-        right = (*search.solution.answers.values(), *_in_equations(search.work))
-        self.found = [group for value in right for group in _groups(value)]
-        self.between = {each.number: list(_inner(each)) for each in search.applications}
+        answers = search.solution.answers
+        right = (*answers.values(), *_in_equations(search.work), *self.asked.values())
+        self.state = _State(
+            {},
+            {each.number: entries for each in search.applications if (entries := numbers(each.value)) is not None},
+            [group for value in right for group in _groups(value)],
+            answers,
+            {each.number: (each.right, each.known) for each in search.applications},
+        )
+        #: What was expected before a line that may be no step at all: a bare number that nothing explains.
+        self.before: _State | None = None
+        long = [len(value) for value in answers.values() if isinstance(value, tuple | Mapping)]
+        arrays = (each.value for each in search.applications if _is_array(each.value))
+        runs = (len(run) for run in self._runs)
+        self.shapes = dict.fromkeys(map(_shape, arrays))
+        #: How many numbers may be given together, in an answer or by steps one after the other.
+        self.long = {each for each in (*long, *runs) if each > 1}
+        self._between: dict[int, tuple[Any, list[Any]]] = {}
+
+    @property
+    def values(self) -> Mapping[int, Any]:
+        """What was found otherwise than it is, by the numbers of the steps."""
+        return self.state.values
+
+    @property
+    def expected(self) -> Mapping[int, Sequence[Any]]:
+        """The numbers that every step gives, with what was found so far."""
+        return self.state.expected
 
     def lines(self, texts: Sequence[str]) -> Iterator[Line]:
         typed = [text for text in map(str.strip, texts) if text]
@@ -155,53 +245,160 @@ class _Follower:
         return next((line for line in read_ if line.standing in _WRONG), read_[-1])
 
     def _equation(self, text: str, told: bool) -> Line:
-        label, sides = self._read(text)
+        label, pieces = self._read(text)
+        sides = [self._entries(piece) for piece in pieces]
         read_ = [side for side in sides if side is not None]
-        if not read_:
-            return Line(text, Standing.UNREAD)
         for ones, twos in pairwise(sides):
+            if ones is not None and twos is not None and len(ones) != len(twos):
+                return Line(text, Standing.UNREAD)
             for one, two in zip(ones or (), twos or (), strict=False):
-                if not self._same(two, one.value) and not self._same(one, two.value):
+                if not self._equal(one, two):
                     if self._holds_letter(one, two):
                         return self._untrue(text, one, two)
                     return self._miscalculated(text, label, (one, two), read_)
+        named = [None if side is not None else self._in_names(piece) for piece, side in zip(pieces, sides, strict=True)]
+        if any(named):
+            return self._of_names(text, label, sides, named, told)
+        if not read_ or (None in sides and not self._named(label)):
+            return Line(text, Standing.UNREAD)
         return self._placed(text, label, sides, told)
 
-    def _read(self, text: str) -> tuple[str, list[Entries | None]]:
-        """The name before the first sign, and the sides behind the last arrow; None for one that is not understood."""
+    def _read(self, text: str) -> tuple[str, list[str]]:
+        """The name before the first sign, and the sides behind the last arrow that has one which is understood."""
         if _ROW.search(text):
             return "", []
-        text = _WHEN.sub("", _COUNTED.sub("", text))
+        for typed, sign in _TYPED.items():
+            text = text.replace(typed, sign)
+        text = _SAID.sub("", _WHEN.sub("", _COUNTED.sub("", text)))
         steps = [list(map(str.strip, _SIDES.split(step))) for step in _NEXT.split(text)]
         labels = []
         while (len(steps) > 1 or len(steps[0]) > 1) and steps[0] and self._is_name(steps[0][0]):
             labels.append(steps[0].pop(0))
-        label = next((label for label in labels if self._named(label)), next(iter(labels), ""))
-        read_ = [[self._entries(piece) for piece in step] for step in steps]
-        return label, next((sides for sides in reversed(read_) if any(sides)), [])
+        said = [match[0] for label in labels if _SENTENCE.search(label) and (match := _LAST_NAME.search(label))]
+        label = next((label for label in (*labels, *said) if self._named(label)), next(iter(labels), ""))
+        read_ = (step for step in reversed(steps) if any(map(self._entries, step)))
+        return label, next(read_, steps[-1])
 
     def _is_name(self, piece: str) -> bool:
         """Whether what stands before the first sign is a name, V(s) or ∂f/∂x, and not a side."""
-        if _NUMERIC.match(piece):
-            return False
-        entries = self._entries(piece)
-        return entries is None or not (_WORKED.search(piece) or self._holds_letter(*entries))
+        if _NUMERIC.match(piece) or not piece:
+            return not piece
+        entries = None if ":" in piece else self._entries(piece)
+        if entries is not None:
+            return piece.isalpha() and not self._holds_letter(*entries)
+        if self._named(piece) or _DERIVATIVE.match(piece):
+            return True
+        return not _OPERATED.search(_BRACKETS.sub("", piece))
+
+    def _in_names(self, piece: str) -> list[Entries] | None:
+        """What a side is worth that holds names, with all that these are worth at some time; None if one is unknown."""
+        written, values = _NAME.sub("{}", re.sub(r"[{}]", "", piece)), []
+        for found in _NAME.finditer(piece):
+            worth = self._worth(found[0])
+            if not worth and self._entries(found[0]) is None and found[0] not in FUNCTIONS:
+                return None
+            before = piece[: found.start()].rstrip()[-1:]
+            times = "*" if before and (before.isalnum() or before == ")") else ""
+            values.append([f"{times}({each})" for each in worth] or [found[0]])
+        if not values or len(piece) > _LONGEST or prod(map(len, values)) > _MOST_VALUES:
+            return None
+        if all(len(each) == 1 and not each[0].endswith(")") for each in values):
+            return None
+        readings: list[Entries] = []
+        for each in product(*values):
+            with suppress(Unreadable):
+                piece = _TIMES.sub("*(", written.format(*each))
+                readings.append((read_number(piece, self.parameters),))
+        return readings or None
+
+    def _worth(self, name: str) -> Sequence[Any]:
+        """What a name is worth at some time: a step, something that is given, or a letter of the formulas."""
+        found = [self.expected[number][0] for number in self._named(name, 1)]
+        given = self._givens.get(spelled(name), ())
+        letter = self._scalars.get(spelled(name), ())
+        return list({str(each): each for each in (*found, *given, *letter) if is_rational(each)}.values())
+
+    @cached_property
+    def _scalars(self) -> Mapping[str, Sequence[Any]]:
+        found: dict[str, list[Any]] = {}
+        for each in self.search.applications:
+            for code, value in each.known.items():
+                if code in PARAMETERS and is_rational(value):
+                    found.setdefault(PARAMETERS[code], []).append(value)
+        return found
+
+    def _of_names(
+        self,
+        text: str,
+        label: str,
+        sides: Sequence[Entries | None],
+        named: Sequence[list[Entries] | None],
+        told: bool,
+    ) -> Line:
+        """An equation with names in it, read with the values that solve it."""
+        chain: list[list[Entries]] = []
+        for given, side in zip(named, sides, strict=True):
+            if given or side is not None:
+                chain.append(given or [side or ()])
+        worth: list[Entries] = [(self._reading(value),) for value in self._worth(label)] if label else []
+        if worth:
+            chain.insert(0, worth)
+        last = chain[0]
+        for worths in chain[1:]:
+            last = [each for each in worths if any(self._alike(each, one) for one in last)]
+        known = not label or bool(worth)
+        whole = known and len(chain) == len(sides) + bool(worth)
+        numbered = any(side is not None for side in sides)
+        if last and len(chain) > 1:
+            if numbered and label:
+                return self._placed(text, label, sides, told)
+            return Line(text, self._standing if whole else Standing.UNREAD)
+        if len(chain) == 1 or not known or self.lost or self.values or told or _RELATION.search(text):
+            return Line(text, Standing.UNREAD)
+        line = self._placed(text, label, sides, told) if numbered and label else Line(text, Standing.RIGHT)
+        if line.standing in _WRONG:
+            return line
+        self.lost = True
+        meant = self._named(label, 1) or [number for name in _NAME.finditer(text) for number in self._named(name[0], 1)]
+        return Line(text, Standing.DEPARTS, self.search.applications[meant[0]] if meant else None)
+
+    def _reading(self, value: Any) -> Reading:
+        return Reading(value, str(value), decimal=False)
+
+    def _alike(self, one: Entries, other: Entries) -> bool:
+        return len(one) == len(other) and all(map(self._equal, one, other))
+
+    def _equal(self, one: Reading, other: Reading) -> bool:
+        return self._same(other, one.value) or self._same(one, other.value)
+
+    @property
+    def _standing(self) -> Standing:
+        """How a line stands that is as it should be."""
+        return Standing.FOLLOWS if self.values or self.lost else Standing.RIGHT
 
     def _holds_letter(self, *readings: Reading) -> bool:
         """Whether a letter is in them that is found on the way."""
         return any(parameters(reading.value) & self.letters.keys() for reading in readings)
 
-    def _untrue(self, text: str, *readings: Reading) -> Line:
+    def _untrue(self, text: str, one: Reading, two: Reading) -> Line:
         """An equation in a letter that does not hold; of one that the question does not ask for nothing is known."""
-        found = self.letters.keys() - self.search.problem.given.left_open
-        certain = not self.values and not any(parameters(reading.value) & found for reading in readings)
-        return Line(text, Standing.DEPARTS if certain else Standing.UNREAD)
+        solved = {each.letter for each in self.search.work.letters}
+        found = solved - set(self.search.problem.given.left_open)
+        holds = parameters(one.value) | parameters(two.value)
+        asked = any(side.value == generator(letter) for letter in self.asked for side in (one, two))
+        if self.values or self.lost or (holds & found and not asked):
+            return Line(text, Standing.UNREAD)
+        self.lost = True
+        with suppress(*UNDONE):  # what the letter is then
+            (letter,) = holds
+            slope, constant = linear(one.value - two.value, letter)
+            self.points = [{**point, letter: -constant / slope} for point in self.points]
+        return Line(text, Standing.DEPARTS)
 
     def _entries(self, piece: str) -> Entries | None:
-        readings: list[Callable[[], Entries]] = [
-            partial(self._number, piece),
-            *(partial(self._grid, piece, shape) for shape in self.shapes),
-        ]
+        grids = [partial(self._grid, piece, shape) for shape in self.shapes]
+        lists = [partial(self._grid, piece, (1, long)) for long in self.long] if _LISTED.search(piece) else []
+        readings: list[Callable[[], Entries]] = [partial(self._number, piece), *grids, *lists]
         for read_ in reversed(readings) if {"[", "("} & set(piece) else readings:  # [−10 −12] is no difference
             with suppress(Unreadable):
                 return read_()
@@ -210,7 +407,12 @@ class _Follower:
     def _number(self, piece: str) -> Entries:
         if _FACTOR.match(piece):
             raise Unreadable("What the factor is worth is not known.")
-        return (read_number(piece, self.parameters),)
+        try:
+            return (read_number(piece, self.parameters),)
+        except Unreadable:
+            if not _DEGREES.search(piece):
+                raise
+            return (read_number(_DEGREES.sub(r"(\1*pi/180)", piece), self.parameters),)
 
     def _grid(self, piece: str, shape: tuple[int, int]) -> Entries:
         read_ = [entry for line in read_matrix(piece, shape, self.parameters) for entry in line]
@@ -220,31 +422,210 @@ class _Follower:
         return given
 
     def _placed(self, text: str, label: str, sides: Sequence[Entries | None], told: bool) -> Line:
-        standing = Standing.FOLLOWS if self.values else Standing.RIGHT
+        """A line that is true in itself, held against the steps; and as if a doubtful line before were none of them."""
+        before, self.before = self.before, None
+        line = self._judged(text, label, sides, told)
+        if before is None or line.standing is not Standing.DEPARTS:
+            self.before = before or self.before
+            return line
+        after = self.state, self.reached
+        self.state = before
+        again = self._judged(text, label, sides, told)
+        if again.standing is Standing.RIGHT:
+            self.before = None
+            return again
+        (self.state, self.reached), self.before = after, before
+        return line
+
+    def _judged(self, text: str, label: str, sides: Sequence[Entries | None], told: bool) -> Line:
         last = next(side for side in reversed(sides) if side is not None)
-        if sides == [last] and not _CHANGED.search(text) and self._is_given(label, last):
-            return Line(text, standing)
         named = self._named(label, len(last))
-        for number in named or self._order(len(last)):
-            if self._all_same(last, self.expected[number]):
-                self.reached = max(self.reached, number)
-                return Line(text, standing, self.search.applications[number])
-        holds = any(side is not None and self._holds_letter(*side) for side in sides)
-        if self._is_beside(label, last) if named else (holds and len(sides) > 1) or self._is_known(last):
-            return Line(text, standing)
-        if not told and (named or not (label or holds or None in sides)):
-            return self._departed(text, named, last)
-        return Line(text, Standing.UNREAD)
+        alone = sides == [last] and not _CHANGED.search(text)
+        if named and self._gives(named[0], last):
+            return self._step(text, named[0], last)
+        if alone and self._is_given(label, last) and not self._is_done_wrongly(named, last):
+            return Line(text, self._standing)
+        steps = named or ([] if label else self._order(len(last)))
+        step = next((number for number in steps if self._gives(number, last)), None)
+        if step is not None:
+            return self._step(text, step, last)
+        if named:
+            if self._is_beside(label, last):
+                return Line(text, self._standing)
+            return Line(text, Standing.UNREAD) if told else self._departed(text, named, last, certain=True)
+        a_number = alone and not is_rational(last[0].value)  # 5π/6 is worked out no further
+        worked = _worked_with(text) if len(last) == 1 and not a_number else None
+        if label:
+            return self._of_own_name(text, label, last, worked, told)
+        if any(side is not None and self._holds_letter(*side) for side in sides) and len(sides) > 1:
+            return Line(text, self._standing)
+        if any(self._all_same(last, values) for values in (*self.state.found, *self._together)):
+            return Line(text, self._standing)
+        if len(last) > 1 and alone and not told and self._order(len(last)):
+            return self._departed(text, (), last, certain=False)
+        if told or len(last) > 1 or self._holds_letter(*last):
+            known = self._place(last) is not None
+            return Line(text, self._standing if known else Standing.UNREAD)
+        return self._worked(text, last, worked) if worked is not None else self._bare(text, last)
+
+    def _step(self, text: str, number: int, last: Entries) -> Line:
+        self.reached = max(self.reached, number)
+        self.done.add(number)
+        if not self._all_same(last, self.expected[number]):
+            self._go_on(number, last)
+        return Line(text, self._standing, self.search.applications[number])
+
+    def _gives(self, number: int, last: Entries) -> bool:
+        """Whether a step gives it; or with what was found so far an equation of a system, or 1 minus the others."""
+        if self._all_same(last, self.expected[number]):
+            return True
+        if not self.values or len(last) > 1:
+            return False
+        run = next((run for run in self._runs if number in run), ())
+        others = [self.expected[each][0] for each in run if each != number]
+        right = [self.search.applications[each].value for each in run]
+        if run and all(map(is_rational, (*right, *others))) and sum(right) == 1:
+            return self._all_same(last, [1 - sum(others)])
+        step = self.search.applications[number]
+        return step.equation and self._all_same(last, [self._again(step)])
+
+    def _again(self, step: Application) -> Any:
+        """What an equation gives with the values that were found for its other unknowns."""
+        left = step.formula.left
+        assert isinstance(left, Quantity)
+        solution = dict(step.known[left.code])
+        for other, value in self.values.items():
+            each = self.search.applications[other]
+            if self._letters[other] & self._letters[step.number]:
+                key = tuple(map(str, each.step.left.args))
+                solution.update({one: value for one in solution if (one if isinstance(one, tuple) else (one,)) == key})
+        return value_or_none(step.right, {**step.known, left.code: solution})
+
+    def _is_done_wrongly(self, named: Sequence[int], last: Entries) -> bool:
+        """Whether the old value of what comes next is what somebody gets for it who errs."""
+        return bool(named and self.done) and named[0] not in self.done and any(
+            cause.kind != "kept" and cause.weight >= LIKELY for cause in self._causes(named[0], last, None)
+        )  # fmt: skip
+
+    def _of_own_name(self, text: str, label: str, last: Entries, worked: Numbers | None, told: bool) -> Line:
+        """A line with a name that no step has: what is asked for, or else it is right where it is worked out so."""
+        asked, parts = self._answer(label, len(last)), self._parts_called(label)
+        if any(self._all_same(last, values) for values in (*asked, *parts)):
+            return Line(text, self._standing)
+        if asked or (parts and spelled(label).startswith(_ERROR)):
+            wrong = not (told or self.lost or self.values)
+            return Line(text, Standing.DEPARTS if wrong else Standing.UNREAD)
+        if any(self._all_same(last, [value]) for value in self._noted.get(plain_name(label), ())):
+            return Line(text, self._standing)
+        if worked is None or self._is_of_another(label):
+            return Line(text, Standing.UNREAD)
+        place = self._place(last, worked)
+        known = place is not None and place.apart(worked) * _FEW <= worked.total()
+        known = known or any(
+            self._gives(number, last) and self._apart(number, worked) * _FEW <= worked.total()
+            for number in self._order(len(last))
+        )
+        return Line(text, self._standing if known else Standing.UNREAD)
+
+    def _parts_called(self, label: str) -> Sequence[Sequence[Any]]:
+        """What a part of a step is worth for which the sheet has a letter: δ, the TD error of an update."""
+        found = []
+        for number in self._order(None):
+            right, known = self.state.sources[number]
+            for letter, part in parts_with_letters(right):
+                if letter != spelled(label).rstrip("0123456789") or letter in known:
+                    continue
+                if (value := value_or_none(part, known)) is not None:
+                    found.append([value])
+        return found
+
+    @cached_property
+    def _noted(self) -> Mapping[str, Sequence[Any]]:
+        """What the working gives a name beside its steps: the entries of a solution, what an equation comes to."""
+        found: dict[str, list[Any]] = {}
+        for line in self.search.work.lines:
+            for left, value in _given_by(line):
+                for name in names_of(left):
+                    found.setdefault(name, []).append(value)
+        return found
+
+    def _is_of_another(self, label: str) -> bool:
+        """Whether a step has that name, but for another state."""
+        head, sign, _ = plain_name(label).partition("(")
+        return bool(sign) and any(head in written for written in self._written.values())
+
+    def _worked(self, text: str, last: Entries, worked: Numbers) -> Line:
+        """A line with a working and without a name: wrong where its numbers are those of a step that went wrong."""
+        place = self._place(last, worked)
+        nearest = None if place is None else place.apart(worked)
+        if not self.values and not self.lost:
+            best: tuple[int, int, tuple[Cause, ...]] | None = None
+            for number in self._order(len(last)):
+                causes = [
+                    cause for cause in self._causing(number, last, worked)
+                    if cause.edit or cause.probe or cause.mistake
+                ]  # fmt: skip
+                found = told_by(self.search.applications[number], causes, worked)
+                if (
+                    found
+                    and (worked.total() >= _FEW or (found[0] == 0 and place is None))
+                    and (best is None or found[0] < best[0])
+                ):
+                    best = found[0], number, self._heaviest(found[1])
+            if best is None and place is None:
+                near_ = [(self._apart(number, worked), number) for number in self._order(len(last))]
+                best = next(((far, number, ()) for far, number in near_ if far <= 1 and worked.total() > _FEW), None)
+            if best is not None and (nearest is None or best[0] < nearest):
+                return self._goes_wrong(text, best[1], best[2], last)
+        return Line(text, Standing.UNREAD if place is None else self._standing)
+
+    def _apart(self, number: int, worked: Numbers) -> int:
+        """How many numbers stand in a line or in a step, and not in both."""
+        right, known = self.state.sources[number]
+        ways = ((numbers_in(line), worked_out(line)) for line in lines(right, known))
+        return min((apart(way, worked) for both in ways for way in both), default=worked.total())
+
+    def _bare(self, text: str, last: Entries) -> Line:
+        """A number alone: what stands on the way, or else a step that went wrong."""
+        place = self._place(last)
+        if place is not None and place.whole:
+            return Line(text, self._standing)
+        if self.lost:
+            return Line(text, Standing.UNREAD)
+        return self._departed(text, (), last, certain=False)
+
+    def _place(self, last: Entries, worked: Numbers | None = None) -> Place | None:
+        """A number on the way that is the same: a whole one, or the one with the numbers of a line."""
+        if len(last) != 1:
+            return None
+        size = approximate(last[0].value)
+        found = []
+        for number in self._order(None):
+            if number in self.values and self._all_same(last, numbers(self.search.applications[number].value) or ()):
+                continue
+            for place in self._places_of(number):
+                if near(place.size, size) and self._same(last[0], place.value):
+                    found.append(place)
+        if worked is not None:
+            return min(found, key=lambda place: place.apart(worked), default=None)
+        return next((place for place in found if place.whole), next(iter(found), None))
+
+    def _places_of(self, number: int) -> list[Place]:
+        right, known = source = self.state.sources[number]
+        if number not in self._between or self._between[number][0] is not source:
+            own = self.search.applications[number].step.own
+            self._between[number] = source, places(right, known, own=own)
+        return self._between[number][1]
 
     def _is_beside(self, label: str, last: Entries) -> bool:
         """Whether another step of that name gives it: one that the solver writes, of a run that is only supposed."""
         steps = (line for line in self.search.work.lines if isinstance(line, Step) and line.value is not None)
         same = (step for step in steps if self._all_same(last, numbers(step.value) or ()))
-        return any(_plain_name(label) in _names(step) for step in same)
+        return any(plain_name(label) in names(step) for step in same)
 
     def _is_given(self, label: str, last: Entries) -> bool:
         """Whether it says what was known before a step, r₁ = 3 or V(cave) = 8."""
-        return any(self._all_same(last, [value]) for value in self._givens.get(_spelled(label), ()))
+        return any(self._all_same(last, [value]) for value in self._givens.get(spelled(label), ()))
 
     @cached_property
     def _givens(self) -> Mapping[str, Sequence[Any]]:
@@ -254,30 +635,33 @@ class _Follower:
             for key, value in table.items() if isinstance(table, Mapping) else ():
                 keys = list(map(str, key if isinstance(key, tuple) else (key,)))
                 for name in (f"{code}({','.join(keys)})", *([f"{code}{key}"] if isinstance(key, int) else [])):
-                    found.setdefault(_spelled(name), []).extend([value] if plain(value) else [])
+                    found.setdefault(spelled(name), []).extend([value] if plain(value) else [])
         return found
 
-    def _is_known(self, last: Entries) -> bool:
-        """Whether it is worked out on the way, or found in the end."""
-        inner = ([value] for number in self._order() for value in self.between[number])
-        return any(self._all_same(last, values) for every in (inner, self.found) for values in every)
-
-    def _departed(self, text: str, named: Sequence[int], last: Entries) -> Line:
+    def _departed(self, text: str, named: Sequence[int], last: Entries, *, certain: bool) -> Line:
         """A line that gives no step: the step that it was meant for, and what it comes from."""
         order = self._order(len(last))
         meant = list(named) or [number for number in order if number > self.reached] or order
-        first_time = not self.values
-        line = next(filter(None, map(numbers_typed, _SIDES.split(text))), None) if len(last) == 1 else None
+        if self.lost:
+            return Line(text, Standing.UNREAD)
+        line = _worked_with(text) if len(last) == 1 else None
         where = meant[0] if meant else None
         causes: tuple[Cause, ...] = ()
-        if first_time:
+        if not self.values:
             for number in meant:
                 found = self._causes(number, last, line)
                 if found:
                     where, causes = number, found
                     break
+        return self._goes_wrong(text, where, causes, last, certain=certain)
+
+    def _goes_wrong(
+        self, text: str, where: int | None, causes: tuple[Cause, ...], last: Entries, *, certain: bool = True
+    ) -> Line:
         application = None if where is None else self.search.applications[where]
         if where is not None:
+            if not certain and self.before is None:
+                self.before = self.state
             self._go_on(where, last)
         return Line(text, Standing.DEPARTS, application, causes)
 
@@ -291,11 +675,19 @@ class _Follower:
         where = meant[0] if meant else None
         if where is not None:
             self._go_on(where, last)
+        else:
+            self.lost = True
         application = None if where is None else self.search.applications[where]
         return Line(text, Standing.MISCALCULATED, application, (), differ)
 
     def _causes(self, number: int, typed: Entries, line: Numbers | None) -> tuple[Cause, ...]:
         """What one step's value may come from, if it is what was typed, with the numbers that stand in the line."""
+        found = self._causing(number, typed, line)
+        if line is not None:
+            found = by_the_numbers(self.search.applications[number], found, line)
+        return self._heaviest(found)
+
+    def _causing(self, number: int, typed: Entries, line: Numbers | None) -> list[Cause]:
         application = self.search.applications[number]
         every = self.search.alternatives(application)
         if line is not None:
@@ -304,18 +696,18 @@ class _Follower:
                 *_of_an_equation(application, self.search.problem.given),
                 *put_in_otherwise(application, line),
             ]
-        found = [
+        return [
             cause
             for cause in every
             if _all_near(typed, became := numbers(cause.became) or ()) and self._all_same(typed, became)
         ]
-        if line is not None:
-            found = by_the_numbers(application, found, line)
-        if not found:
-            return ()
-        found.sort(key=lambda cause: -cause.weight)
-        best = found[0].weight
-        return tuple(cause for cause in found if cause.weight >= best / 2)[:2]
+
+    def _heaviest(self, found: Sequence[Cause]) -> tuple[Cause, ...]:
+        """The likeliest, and another that is about as likely and says something else."""
+        ranked = sorted(found, key=lambda cause: -cause.weight)
+        several = [cause for cause in ranked if cause.weight >= ranked[0].weight / 2]
+        said = {str(saying(cause, self.search.applications)): cause for cause in reversed(several)}
+        return tuple(reversed(said.values()))[:2]
 
     def _all_same(self, entries: Entries, values: Sequence[Any]) -> bool:
         pairs = zip(entries, values, strict=False)
@@ -333,17 +725,18 @@ class _Follower:
     def _go_on(self, number: int, entries: Entries) -> None:
         """What is expected from here on."""
         right = self.search.applications[number].value
-        self.values[number] = of_numbers(right, [entry.value for entry in entries])
+        values = {**self.values, number: of_numbers(right, [entry.value for entry in entries])}
         self.reached = max(self.reached, number)
         trace: list[Traced] = []
-        answers = self.search.replay(Change(values=dict(self.values)), trace)
-        self.found = list(_groups(answers or {}))
-        self.expected |= {
-            at: found for at, _, _, came in trace if at in self.expected and (found := numbers(came)) is not None
-        }
-        for at, right, known, _ in trace:
-            if at in self.between:
-                self.between[at] = list(_places(right, known))
+        answers = self.search.replay(Change(values=values), trace) or {}
+        given = {at: found for at, _, _, came in trace if at in self.expected and (found := numbers(came)) is not None}
+        self.state = _State(
+            values,
+            {**self.expected, **given},
+            list(_groups(answers)),
+            answers,
+            {**self.state.sources, **{at: (right, known) for at, right, known, _ in trace if at in self.state.sources}},
+        )
 
     def _order(self, long: int | None = 1) -> list[int]:
         """The steps that a line of so many numbers can give, those that come next first."""
@@ -352,15 +745,102 @@ class _Follower:
 
     def _named(self, label: str, long: int | None = None) -> list[int]:
         """The steps whose quantity has that name, those that come next first."""
-        wanted = _plain_name(label)
-        if not wanted:
+        if not label:
             return []
-        named = [(each, _names(self.search.applications[each].step)) for each in self._order(long)]
-        plainer = _plain_name(_SCRIPT.sub(r"\1", label)), _MARKS.sub("", wanted)  # V' may be the new V
-        for name in (wanted, *plainer):
-            if steps := [each for each, names in named if name in names]:
+        order = self._order(long)
+        for name in readings(label):
+            if steps := [each for each in order if name and name in self._written[each]]:
                 return steps
-        return []
+        letter = spelled(label)
+        if steps := [each for each in order if letter in self._letters[each]]:
+            return steps
+        other = of_another_index(label)
+        return [each for each in order if other in self._written[each]]
+
+    @cached_property
+    def _written(self) -> Mapping[int, set[str]]:
+        return {each.number: names(each.step) for each in self.search.applications}
+
+    @cached_property
+    def _letters(self) -> Mapping[int, set[str]]:
+        return {each.number: letters(each.step) for each in self.search.applications}
+
+    @cached_property
+    def _runs(self) -> Sequence[Sequence[int]]:
+        """The numbers of the steps one after the other by the same formula, each of another quantity: a vector."""
+        runs: list[list[Application]] = []
+        for each in self.search.applications:
+            run = runs[-1] if runs else []
+            if run and each.formula is run[0].formula and all(each.step.left != one.step.left for one in run):
+                run.append(each)
+            else:
+                runs.append([each])
+        return [[each.number for each in run] for run in runs if len(run) > 1 and all(plain(one.value) for one in run)]
+
+    @property
+    def _together(self) -> Iterator[Sequence[Any]]:
+        """What such steps give, as vectors."""
+        for run in self._runs:
+            if all(number in self.expected for number in run):
+                yield [self.expected[number][0] for number in run]
+
+    def _answer(self, label: str, long: int) -> Sequence[Sequence[Any]]:
+        """What the quantity of a name that a part asks for, or that several steps give, is worth."""
+        name, letter = plain_name(label), re.sub(r"\(.*", "", plain_name(label))
+        found: list[Sequence[Any]] = []
+        for part in self.search.problem.parts:
+            values = list(_numbers_of(self.state.answers.get(part.label)))
+            called = [plain_name(each) for each in _called(part)]
+            if long == 1:
+                found += [[value] for each, value in zip(called, values, strict=False) if each == name]
+            elif len(values) == long and letter and letter in {re.sub(r"\d*(?:\(.*)?\Z", "", each) for each in called}:
+                found.append(values)
+        if long > 1:
+            for run in self._runs:
+                if len(run) == long and any(letter in map(str.lower, self._letters[each]) for each in run):
+                    found.append([self.expected[number][0] for number in run])
+        return found
+
+
+def _called(part: Part) -> Sequence[str]:
+    """The names of what a part asks for, in mathematics."""
+    if isinstance(part.kind, Numbers_):
+        return part.kind.entries
+    if isinstance(part.kind, Values):
+        return [part.kind.of.split("(")[0]]
+    if isinstance(part.kind, Number) and (found := _QUANTITY.match(part.ask)):
+        return [found[1]]
+    return []
+
+
+def _numbers_of(value: Any) -> Iterator[Any]:
+    """All numbers of an answer, in their order."""
+    if isinstance(value, Mapping | tuple):
+        for inner in value.values() if isinstance(value, Mapping) else value:
+            yield from _numbers_of(inner)
+    else:
+        yield from numbers(value) or ()
+
+
+def _asked(search: Search) -> dict[str, Any]:
+    """The letters that are asked for without an equation that was solved for them, with their values."""
+    spelled_out = {glyph: code for code, glyph in PARAMETERS.items()}
+    of_steps = {letter for each in search.applications for letter in letters(each.step)}
+    asked = {}
+    for part in search.problem.parts:
+        found = _LETTER.match(part.ask) if isinstance(part.kind, Number) else None
+        value = search.solution.answers.get(part.label)
+        if found and found[1] not in of_steps and plain(value):
+            letter = spelled_out.get(found[1], found[1])
+            if letter not in search.problem.given.left_open:
+                asked[letter] = value
+    return asked
+
+
+def _worked_with(text: str) -> Numbers | None:
+    """The numbers of the first side of a line that is worked out; None where every side is one number."""
+    found = map(numbers_typed, _SIDES.split(text))
+    return next((side for side in found if side is not None), None)
 
 
 def _is_array(value: Any) -> bool:
@@ -391,6 +871,14 @@ def _where(value: Any, found: Mapping[str, Any]) -> Any:
     )
 
 
+def _given_by(line: Any) -> Iterator[tuple[Expr, Any]]:
+    """The names and numbers of a line of the working that is no step."""
+    if isinstance(line, Result):
+        yield from ((left, value) for left, value in zip(line.lefts, line.values, strict=True) if plain(value))
+    elif isinstance(line, Equality) and isinstance(line.left, Expr):
+        yield from ((line.left, value) for value in line.rights if plain(value) and not isinstance(value, Expr))
+
+
 def _in_equations(work: Work) -> Iterator[Any]:
     """What stands on the sides of the equations that follow from the steps."""
     for line in work.lines:
@@ -400,83 +888,13 @@ def _in_equations(work: Work) -> Iterator[Any]:
 
 
 def _groups(value: Any) -> Iterator[Sequence[Any]]:
-    """The numbers of a value as they may be written: one by one, and those of a vector or matrix together."""
+    """The numbers of a value as they may be written: one by one, and all of them together."""
     if isinstance(value, Mapping | tuple):
-        for inner in value.values() if isinstance(value, Mapping) else value:
-            yield from _groups(inner)
+        inner = list(value.values() if isinstance(value, Mapping) else value)
+        for each in inner:
+            yield from _groups(each)
+        if len(inner) > 1 and all(map(plain, inner)):
+            yield inner
     elif together := numbers(value):
         yield together
         yield from ([each] for each in together)
-
-
-def _inner(application: Application) -> Iterator[Any]:
-    yield from _places(application.right, application.known)
-
-
-def _places(right: Any, known: Mapping[str, Any]) -> Iterator[Any]:
-    """What the places of a formula are worth: what somebody works out on the way."""
-    for probe in probes(right):
-        if not probe.within:
-            try:
-                value = value_of(probe.part, known)
-            except UNDONE:
-                continue
-            if plain(value):
-                yield value
-
-
-def _names(step: Step) -> set[str]:
-    """The names under which somebody may write a step."""
-    left = typeset(step.left)
-    time = step.known.get("t")
-    names = set()
-    for written in {_plain_name(_signs(math)) for math in (left, *_without_scripts(left))}:
-        head = re.sub(r"\(.*", "", written)
-        names |= {written, re.sub(r"[(),]", "", written), head}
-        if len(indices := {*re.findall(r"\d+", written.removeprefix(head))}) == 1:
-            names.add(head + indices.pop())  # r1 for r(s_1)
-        if isinstance(time, int):
-            names |= {f"{head}{time}", re.sub("t(?![a-z])", str(time), written)}
-    return names
-
-
-def _without_scripts(left: Math) -> Iterator[Math]:
-    """The name without what stands above its first sign, V(s) for V^π(s), and below it, where more comes."""
-    match left:
-        case Row((Script(body, _, _), *others)) if others:
-            yield Row((body, *others))
-            yield from (Row((first, *others)) for first in _without_scripts(left.items[0]))
-        case Script(body, below, _):
-            yield Script(body, below)
-
-
-def _signs(math: Math) -> str:
-    """Mathematics as bare signs, one after the other."""
-    match math:
-        case Glyph(text, _):
-            return text
-        case Row(items):
-            return "".join(map(_signs, items))
-        case Fraction(above, below):
-            return f"{_signs(above)}/{_signs(below)}"
-        case Script(body, below, above):
-            return _signs(body) + "".join(_signs(each) for each in (below, above) if each is not None)
-        case Fence(body, left, right):
-            return f"{left}{_signs(body)}{right}"
-        case Root(body) | Accent(body, _):
-            return _signs(body)
-        case Big(sign, _, _):
-            return sign
-        case _:
-            return ""
-
-
-def _plain_name(label: str) -> str:
-    return _spelled(label).lower()
-
-
-def _spelled(label: str) -> str:
-    name = re.sub(r"[\s_{}^]|new", "", "".join(sign for sign in normalize("NFKD", label) if not combining(sign)))
-    for spelled, letter in _WORDS.items():
-        name = name.replace(spelled, letter)
-    return name

@@ -1,9 +1,11 @@
 """What the numbers in a line of somebody's working tell: which of the ways to get its value was gone."""
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from flint import fmpq
+from sympy import Expr
 
 from rldrill.problems import mathematics as written
 from rldrill.problems.fractions import Fraction, fraction_of
@@ -18,12 +20,17 @@ from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.formula.edits import SCALE, SHIFT, probes
+from rldrill.solutions.formula.lines import lines_between
 from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset
 
 #: The numbers of a line, without signs; zeros and ones are left out, as people leave them out.
 Numbers = Counter[Fraction]
+#: A fraction among factors is one number: 1/2·4/5.
+_FRACTION = re.compile(r"(?<![\w.)/^])\d+/\d+(?![\w.(/^])")
+#: A line is known by its numbers where at most one of so many is another one.
+_IDENTIFY = 3
 #: A line with fewer numbers is a value, and tells nothing of how it was found.
 _FEWEST = 2
 
@@ -31,7 +38,7 @@ _FEWEST = 2
 def numbers_typed(text: str) -> Numbers | None:
     """The numbers in what somebody wrote; None where there is only one, or it cannot be read."""
     try:
-        found = list(_numerals(read(typed(text, len(text)))))
+        found = list(_numerals(read(typed(_FRACTION.sub(r"(\g<0>)", text), len(text) + 2 * text.count("/")))))
     except Unreadable:
         return None
     return _told(found) if len(found) >= _FEWEST else None
@@ -52,9 +59,34 @@ def _numerals(node: Node) -> Iterator[Fraction]:
 def by_the_numbers(application: Application, causes: Iterable[Cause], line: Numbers) -> list[Cause]:
     """Those of the causes whose line has the numbers that were written, or comes nearest to them."""
     right = _numbers_of(application, None)
-    apart = [(_apart(_line_of(cause, application, right), line), cause) for cause in causes]
-    apart.sort(key=lambda each: each[0])
-    return [cause for distance, cause in apart if distance == apart[0][0]]
+    far = [(apart(_line_of(cause, application, right), line), cause) for cause in causes]
+    far.sort(key=lambda each: each[0])
+    return [cause for distance, cause in far if distance == far[0][0]]
+
+
+def told_by(application: Application, causes: Iterable[Cause], line: Numbers) -> tuple[int, list[Cause]] | None:
+    """Those of the causes that the numbers of a line tell, and how many of these differ; None where they tell none."""
+    right = _numbers_of(application, None)
+    found: dict[int, list[Cause]] = {}
+    for cause in causes:
+        for those in (_line_of(cause, application, right), *_lines_between(cause, application)):
+            far = apart(those, line)
+            alike = (those & line).total() - (cause.kind == "elsewhere")
+            if far * _IDENTIFY <= those.total() and alike > 1 - (far == 0):
+                found.setdefault(far, []).append(cause)
+                break
+    return min(found.items(), key=lambda each: each[0], default=None)
+
+
+def _lines_between(cause: Cause, application: Application) -> Iterator[Numbers]:
+    """The numbers of the lines that come before the value, of somebody who goes on from an edit."""
+    if cause.edit is None or cause.term:
+        return
+    try:
+        for between in lines_between(put_in(cause.edit.right, application.known), own=application.step.own):
+            yield numbers_in(between)
+    except UNDONE:
+        return
 
 
 def put_in_otherwise(application: Application, line: Numbers) -> Iterator[Cause]:
@@ -90,9 +122,14 @@ def _line_of(cause: Cause, application: Application, right: Numbers) -> Numbers:
 def _numbers_of(application: Application, cause: Cause | None) -> Numbers:
     right = application.right if cause is None or cause.edit is None else cause.edit.right
     try:
-        return _told(_in(typeset(put_in(right, application.known))))
+        return numbers_in(put_in(right, application.known))
     except UNDONE:
         return Counter()
+
+
+def numbers_in(expression: Expr) -> Numbers:
+    """The numbers that stand in an expression as it is written."""
+    return _told(_in(typeset(expression)))
 
 
 def _one(value: object) -> Numbers:
@@ -103,7 +140,8 @@ def _told(numbers: Iterable[Fraction]) -> Numbers:
     return Counter(abs(number) for number in numbers if abs(number) not in (0, 1))
 
 
-def _apart(one: Numbers, other: Numbers) -> int:
+def apart(one: Numbers, other: Numbers) -> int:
+    """How many numbers stand in one line or in another, and not in both."""
     return sum(((one - other) + (other - one)).values())
 
 

@@ -8,7 +8,7 @@ import pytest
 import rldrill
 from promptness import at_once
 from rldrill.problems.notations import used
-from rldrill.solutions.diagnosis.written_line import _apart, numbers_typed
+from rldrill.solutions.diagnosis.written_line import apart, numbers_typed
 
 # As in test_diagnosing.py: cave ← 10, floor ← 5, cave ← 17/4.
 RUN = {
@@ -180,8 +180,8 @@ def test_a_wrong_reward_is_held_against_that_of_its_time(line: str, where: str) 
 
 def test_lines_are_as_far_apart_as_numbers_stand_in_one_alone() -> None:
     one, other = (Counter(map(Fraction, numbers)) for numbers in (("1/2", "3"), ("1/2", "4", "4")))
-    assert _apart(one, other) == 3  # the 3, and 4 twice
-    assert _apart(one, one) == 0
+    assert apart(one, other) == 3  # the 3, and 4 twice
+    assert apart(one, one) == 0
 
 
 @pytest.mark.parametrize(("line", "standing"), [("-5/7", "departs"), ("√4 + 8", "right"), ("(8 + 12)/2", "right")])
@@ -246,10 +246,9 @@ def test_of_a_wrong_line_with_a_letter_nothing_is_said_of_the_next_ones() -> Non
         "V(cave) = 10, V(floor) = 5 and V(cave) = 17/4",
         "V^pi(floor) = 5",
         "V'(cave) = 10",
-        "x = 5",
     ],
 )
-def test_what_is_given_or_found_is_right_under_any_name(run: rldrill.Exercise, line: str) -> None:
+def test_what_is_given_or_found_is_right_under_its_name(run: rldrill.Exercise, line: str) -> None:
     (told,) = run.follow([line]).lines
     assert told.standing == "right"
 
@@ -262,7 +261,7 @@ def test_what_is_given_or_found_is_right_under_any_name(run: rldrill.Exercise, l
         "(e)",
         "(E).",
         "The episode ends at T = 3.",
-        "3V(cave) = 31",
+        "x = 5",  # a name of one's own, though the second update gives 5
         "⎡1/2  3⎤",
         "c(3 - 1) = 7",
     ],
@@ -280,7 +279,7 @@ def test_a_line_that_begins_with_an_equals_sign_or_a_plus_goes_on_with_the_one_b
 
 
 # Before the measurement 1·1/2 + 1/3·1/2 = 2/3 for dry: whoever forgets the second term has 1/2.
-@pytest.mark.parametrize("name", ["p̄(dry)", "p(dry)", "p_bar(dry)"])
+@pytest.mark.parametrize("name", ["p̄(dry)", "p(dry)", "p_bar(dry)", "p1(dry)"])
 def test_a_sign_above_a_letter_may_be_left_out_or_spelled(name: str) -> None:
     motion = {"go": {"dry": {"dry": 1}, "wet": {"dry": "1/3", "wet": "2/3"}}}
     given = {"belief": {"dry": "1/2", "wet": "1/2"}, "motion": motion, "actions": ["go"]}
