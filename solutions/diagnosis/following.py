@@ -1,26 +1,24 @@
 """Somebody's own working, line by line, held against the right one."""
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from enum import Enum
-from functools import cached_property, partial
 from itertools import pairwise, product, starmap
 from math import prod
-from typing import Any, TypeAlias
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
-from sympy import Expr
 
-from rldrill.problems.exact import PARAMETERS
 from rldrill.problems.notation import FUNCTIONS
-from rldrill.problems.parts import Number, Part, Values
-from rldrill.problems.parts import Numbers as Numbers_
 from rldrill.solutions.answers.rule import is_right
-from rldrill.solutions.answers.text import Reading, Unreadable, read_matrix, read_number
+from rldrill.solutions.answers.text import Reading, Unreadable, read_number
 from rldrill.solutions.diagnosis.alternatives import LIKELY, at_one, numbers, of_numbers, plain, value_or_none
+from rldrill.solutions.diagnosis.asked_for import asked_letters, called, numbers_of
 from rldrill.solutions.diagnosis.causes import Cause
+from rldrill.solutions.diagnosis.entries import Entries, Reader
+from rldrill.solutions.diagnosis.meant_names import Names
 from rldrill.solutions.diagnosis.on_the_way import Place, lines, places, worked_out
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.saying import saying
@@ -36,21 +34,15 @@ from rldrill.solutions.diagnosis.written_line import (
     told_by,
 )
 from rldrill.solutions.diagnosis.written_names import (
-    letters,
     names,
-    names_of,
-    of_another_index,
     parts_with_letters,
     plain_name,
-    readings,
     spelled,
 )
 from rldrill.solutions.exact import NotReal, is_rational, parameters, value_where
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.rational import generator, linear
-from rldrill.solutions.vector import Vector
-from rldrill.solutions.work import Equality, Result, Step, Work
+from rldrill.solutions.work import Equality, Step, Work
 
 #: Signs between the sides of a line.
 _SIDES = re.compile(r"=|←|≈|:(?!\d)")
@@ -73,22 +65,14 @@ _NAME = re.compile(r"[^\W\d_][\w′'’\u0300-\u036f]*(?:\^\*|\^\([^()]*\)|\^\w+
 _LAST_NAME = re.compile(rf"{_NAME.pattern}\Z")
 #: A bracket behind a number is a factor.
 _TIMES = re.compile(r"(?<=[\d)])\s*\(")
-#: An angle in degrees.
-_DEGREES = re.compile(r"([\d.]+)\s*°")
 #: The letter of an error stands for nothing else.
 _ERROR = "δ"
 #: A comparison is no equation.
 _RELATION = re.compile(r"[<>≤≥≠]")
-#: What stands between the numbers of a list.
-_LISTED = re.compile(r"[,;]|\A\[")
 #: A side with names that may be worth more than this is not read.
 _MOST_VALUES = 64
 #: A line is worked out like another where at most one of so many numbers differs.
 _FEW = 3
-#: The letter that a part asks for: For which number $n$ of data points …?
-_LETTER = re.compile(r"(?:\w+ )?[Ww]h(?:ich|at)(?: is| must)?(?: [\w ]+?)? \$([^\W\d_])(?: = [^$]*)?\$(?!-)")
-#: The name of what a part asks for: What is the entry $B_{2 1}$ …?
-_QUANTITY = re.compile(r"What is (?:the [\w ]+ )?\$([^$]+)\$(?!-)")
 #: The number of a line before it.
 _COUNTED = re.compile(r"\A\s*(?:\(\w\)|\[\w\])\.?(?:\s+|\Z)")
 #: Between two equations on a line: V(cool) = 3, V(warm) = 4.
@@ -107,14 +91,8 @@ _ITEM = re.compile(r"[-+−] *[^\W\d][\w′']*(?:\([^()]*\))? *[=≈←:]")
 _LONGEST = 1000
 #: One row of a matrix that is written over several lines.
 _ROW = re.compile("[⎡-⎦]")
-#: What stands before a bracket, and is no function: a factor without a value, c(3 − 1), or a name.
-_FACTOR = re.compile(r"\A[^\W\d_]\s*\(")
 #: The time or number of an update, which is told before it: t = 2.
 _WHEN = re.compile(r"\A\s*[^\W\d_](?:_?\w)?\s*=\s*\d+\s*:(?=\s)")
-
-
-#: The numbers of one side of a line: one, or those of a vector or matrix, row by row.
-Entries: TypeAlias = tuple[Reading, ...]
 
 
 class Standing(Enum):
@@ -184,7 +162,8 @@ class _Follower:
         self.done: set[int] = set()
         #: Whether an equation went wrong that gives no value, so that nothing is known of what follows from it.
         self.lost = False
-        self.asked = _asked(search)
+        self.asked = asked_letters(search)
+        self.names = Names(search)
         self.letters: dict[str, list[Any]] = {}
         for found in search.work.letters:
             self.letters.setdefault(found.letter, []).append(found.value)
@@ -204,11 +183,8 @@ class _Follower:
         #: What was expected before a line that may be no step at all: a bare number that nothing explains.
         self.before: _State | None = None
         long = [len(value) for value in answers.values() if isinstance(value, tuple | Mapping)]
-        arrays = (each.value for each in search.applications if _is_array(each.value))
-        runs = (len(run) for run in self._runs)
-        self.shapes = dict.fromkeys(map(_shape, arrays))
-        #: How many numbers may be given together, in an answer or by steps one after the other.
-        self.long = {each for each in (*long, *runs) if each > 1}
+        values = (each.value for each in search.applications)
+        self.reader = Reader(self.parameters, values, (*long, *map(len, self.names.runs)))
         self._between: dict[int, tuple[Any, list[Any]]] = {}
 
     @property
@@ -246,7 +222,7 @@ class _Follower:
 
     def _equation(self, text: str, told: bool) -> Line:
         label, pieces = self._read(text)
-        sides = [self._entries(piece) for piece in pieces]
+        sides = [self.reader.read(piece) for piece in pieces]
         read_ = [side for side in sides if side is not None]
         for ones, twos in pairwise(sides):
             if ones is not None and twos is not None and len(ones) != len(twos):
@@ -276,14 +252,14 @@ class _Follower:
             labels.append(steps[0].pop(0))
         said = [match[0] for label in labels if _SENTENCE.search(label) and (match := _LAST_NAME.search(label))]
         label = next((label for label in (*labels, *said) if self._named(label)), next(iter(labels), ""))
-        read_ = (step for step in reversed(steps) if any(map(self._entries, step)))
+        read_ = (step for step in reversed(steps) if any(map(self.reader.read, step)))
         return label, next(read_, steps[-1])
 
     def _is_name(self, piece: str) -> bool:
         """Whether what stands before the first sign is a name, V(s) or ∂f/∂x, and not a side."""
         if _NUMERIC.match(piece) or not piece:
             return not piece
-        entries = None if ":" in piece else self._entries(piece)
+        entries = None if ":" in piece else self.reader.read(piece)
         if entries is not None:
             return piece.isalpha() and not self._holds_letter(*entries)
         if self._named(piece) or _DERIVATIVE.match(piece):
@@ -295,7 +271,7 @@ class _Follower:
         written, values = _NAME.sub("{}", re.sub(r"[{}]", "", piece)), []
         for found in _NAME.finditer(piece):
             worth = self._worth(found[0])
-            if not worth and self._entries(found[0]) is None and found[0] not in FUNCTIONS:
+            if not worth and self.reader.read(found[0]) is None and found[0] not in FUNCTIONS:
                 return None
             before = piece[: found.start()].rstrip()[-1:]
             times = "*" if before and (before.isalnum() or before == ")") else ""
@@ -314,18 +290,9 @@ class _Follower:
     def _worth(self, name: str) -> Sequence[Any]:
         """What a name is worth at some time: a step, something that is given, or a letter of the formulas."""
         found = [self.expected[number][0] for number in self._named(name, 1)]
-        given = self._givens.get(spelled(name), ())
-        letter = self._scalars.get(spelled(name), ())
+        given = self.names.given(name)
+        letter = self.names.scalar(name)
         return list({str(each): each for each in (*found, *given, *letter) if is_rational(each)}.values())
-
-    @cached_property
-    def _scalars(self) -> Mapping[str, Sequence[Any]]:
-        found: dict[str, list[Any]] = {}
-        for each in self.search.applications:
-            for code, value in each.known.items():
-                if code in PARAMETERS and is_rational(value):
-                    found.setdefault(PARAMETERS[code], []).append(value)
-        return found
 
     def _of_names(
         self,
@@ -395,32 +362,6 @@ class _Follower:
             self.points = [{**point, letter: -constant / slope} for point in self.points]
         return Line(text, Standing.DEPARTS)
 
-    def _entries(self, piece: str) -> Entries | None:
-        grids = [partial(self._grid, piece, shape) for shape in self.shapes]
-        lists = [partial(self._grid, piece, (1, long)) for long in self.long] if _LISTED.search(piece) else []
-        readings: list[Callable[[], Entries]] = [partial(self._number, piece), *grids, *lists]
-        for read_ in reversed(readings) if {"[", "("} & set(piece) else readings:  # [−10 −12] is no difference
-            with suppress(Unreadable):
-                return read_()
-        return None
-
-    def _number(self, piece: str) -> Entries:
-        if _FACTOR.match(piece):
-            raise Unreadable("What the factor is worth is not known.")
-        try:
-            return (read_number(piece, self.parameters),)
-        except Unreadable:
-            if not _DEGREES.search(piece):
-                raise
-            return (read_number(_DEGREES.sub(r"(\1*pi/180)", piece), self.parameters),)
-
-    def _grid(self, piece: str, shape: tuple[int, int]) -> Entries:
-        read_ = [entry for line in read_matrix(piece, shape, self.parameters) for entry in line]
-        given = tuple(entry for entry in read_ if entry is not None)
-        if len(given) < len(read_):
-            raise Unreadable("Entries are left out; give them too.")
-        return given
-
     def _placed(self, text: str, label: str, sides: Sequence[Entries | None], told: bool) -> Line:
         """A line that is true in itself, held against the steps; and as if a doubtful line before were none of them."""
         before, self.before = self.before, None
@@ -481,7 +422,7 @@ class _Follower:
             return True
         if not self.values or len(last) > 1:
             return False
-        run = next((run for run in self._runs if number in run), ())
+        run = next((run for run in self.names.runs if number in run), ())
         others = [self.expected[each][0] for each in run if each != number]
         right = [self.search.applications[each].value for each in run]
         if run and all(map(is_rational, (*right, *others))) and sum(right) == 1:
@@ -496,7 +437,7 @@ class _Follower:
         solution = dict(step.known[left.code])
         for other, value in self.values.items():
             each = self.search.applications[other]
-            if self._letters[other] & self._letters[step.number]:
+            if self.names.letters[other] & self.names.letters[step.number]:
                 key = tuple(map(str, each.step.left.args))
                 solution.update({one: value for one in solution if (one if isinstance(one, tuple) else (one,)) == key})
         return value_or_none(step.right, {**step.known, left.code: solution})
@@ -515,9 +456,9 @@ class _Follower:
         if asked or (parts and spelled(label).startswith(_ERROR)):
             wrong = not (told or self.lost or self.values)
             return Line(text, Standing.DEPARTS if wrong else Standing.UNREAD)
-        if any(self._all_same(last, [value]) for value in self._noted.get(plain_name(label), ())):
+        if any(self._all_same(last, [value]) for value in self.names.noted(label)):
             return Line(text, self._standing)
-        if worked is None or self._is_of_another(label):
+        if worked is None or self.names.is_of_another(label):
             return Line(text, Standing.UNREAD)
         place = self._place(last, worked)
         known = place is not None and place.apart(worked) * _FEW <= worked.total()
@@ -538,21 +479,6 @@ class _Follower:
                 if (value := value_or_none(part, known)) is not None:
                     found.append([value])
         return found
-
-    @cached_property
-    def _noted(self) -> Mapping[str, Sequence[Any]]:
-        """What the working gives a name beside its steps: the entries of a solution, what an equation comes to."""
-        found: dict[str, list[Any]] = {}
-        for line in self.search.work.lines:
-            for left, value in _given_by(line):
-                for name in names_of(left):
-                    found.setdefault(name, []).append(value)
-        return found
-
-    def _is_of_another(self, label: str) -> bool:
-        """Whether a step has that name, but for another state."""
-        head, sign, _ = plain_name(label).partition("(")
-        return bool(sign) and any(head in written for written in self._written.values())
 
     def _worked(self, text: str, last: Entries, worked: Numbers) -> Line:
         """A line with a working and without a name: wrong where its numbers are those of a step that went wrong."""
@@ -625,18 +551,7 @@ class _Follower:
 
     def _is_given(self, label: str, last: Entries) -> bool:
         """Whether it says what was known before a step, r₁ = 3 or V(cave) = 8."""
-        return any(self._all_same(last, [value]) for value in self._givens.get(spelled(label), ()))
-
-    @cached_property
-    def _givens(self) -> Mapping[str, Sequence[Any]]:
-        tables = {id(table): (code, table) for each in self.search.applications for code, table in each.known.items()}
-        found: dict[str, list[Any]] = {}
-        for code, table in tables.values():
-            for key, value in table.items() if isinstance(table, Mapping) else ():
-                keys = list(map(str, key if isinstance(key, tuple) else (key,)))
-                for name in (f"{code}({','.join(keys)})", *([f"{code}{key}"] if isinstance(key, int) else [])):
-                    found.setdefault(spelled(name), []).extend([value] if plain(value) else [])
-        return found
+        return any(self._all_same(last, [value]) for value in self.names.given(label))
 
     def _departed(self, text: str, named: Sequence[int], last: Entries, *, certain: bool) -> Line:
         """A line that gives no step: the step that it was meant for, and what it comes from."""
@@ -745,42 +660,12 @@ class _Follower:
 
     def _named(self, label: str, long: int | None = None) -> list[int]:
         """The steps whose quantity has that name, those that come next first."""
-        if not label:
-            return []
-        order = self._order(long)
-        for name in readings(label):
-            if steps := [each for each in order if name and name in self._written[each]]:
-                return steps
-        letter = spelled(label)
-        if steps := [each for each in order if letter in self._letters[each]]:
-            return steps
-        other = of_another_index(label)
-        return [each for each in order if other in self._written[each]]
-
-    @cached_property
-    def _written(self) -> Mapping[int, set[str]]:
-        return {each.number: names(each.step) for each in self.search.applications}
-
-    @cached_property
-    def _letters(self) -> Mapping[int, set[str]]:
-        return {each.number: letters(each.step) for each in self.search.applications}
-
-    @cached_property
-    def _runs(self) -> Sequence[Sequence[int]]:
-        """The numbers of the steps one after the other by the same formula, each of another quantity: a vector."""
-        runs: list[list[Application]] = []
-        for each in self.search.applications:
-            run = runs[-1] if runs else []
-            if run and each.formula is run[0].formula and all(each.step.left != one.step.left for one in run):
-                run.append(each)
-            else:
-                runs.append([each])
-        return [[each.number for each in run] for run in runs if len(run) > 1 and all(plain(one.value) for one in run)]
+        return self.names.among(self._order(long), label)
 
     @property
     def _together(self) -> Iterator[Sequence[Any]]:
         """What such steps give, as vectors."""
-        for run in self._runs:
+        for run in self.names.runs:
             if all(number in self.expected for number in run):
                 yield [self.expected[number][0] for number in run]
 
@@ -789,66 +674,23 @@ class _Follower:
         name, letter = plain_name(label), re.sub(r"\(.*", "", plain_name(label))
         found: list[Sequence[Any]] = []
         for part in self.search.problem.parts:
-            values = list(_numbers_of(self.state.answers.get(part.label)))
-            called = [plain_name(each) for each in _called(part)]
+            values = list(numbers_of(self.state.answers.get(part.label)))
+            names_ = [plain_name(each) for each in called(part)]
             if long == 1:
-                found += [[value] for each, value in zip(called, values, strict=False) if each == name]
-            elif len(values) == long and letter and letter in {re.sub(r"\d*(?:\(.*)?\Z", "", each) for each in called}:
+                found += [[value] for each, value in zip(names_, values, strict=False) if each == name]
+            elif len(values) == long and letter and letter in {re.sub(r"\d*(?:\(.*)?\Z", "", each) for each in names_}:
                 found.append(values)
         if long > 1:
-            for run in self._runs:
-                if len(run) == long and any(letter in map(str.lower, self._letters[each]) for each in run):
+            for run in self.names.runs:
+                if len(run) == long and any(letter in map(str.lower, self.names.letters[each]) for each in run):
                     found.append([self.expected[number][0] for number in run])
         return found
-
-
-def _called(part: Part) -> Sequence[str]:
-    """The names of what a part asks for, in mathematics."""
-    if isinstance(part.kind, Numbers_):
-        return part.kind.entries
-    if isinstance(part.kind, Values):
-        return [part.kind.of.split("(")[0]]
-    if isinstance(part.kind, Number) and (found := _QUANTITY.match(part.ask)):
-        return [found[1]]
-    return []
-
-
-def _numbers_of(value: Any) -> Iterator[Any]:
-    """All numbers of an answer, in their order."""
-    if isinstance(value, Mapping | tuple):
-        for inner in value.values() if isinstance(value, Mapping) else value:
-            yield from _numbers_of(inner)
-    else:
-        yield from numbers(value) or ()
-
-
-def _asked(search: Search) -> dict[str, Any]:
-    """The letters that are asked for without an equation that was solved for them, with their values."""
-    spelled_out = {glyph: code for code, glyph in PARAMETERS.items()}
-    of_steps = {letter for each in search.applications for letter in letters(each.step)}
-    asked = {}
-    for part in search.problem.parts:
-        found = _LETTER.match(part.ask) if isinstance(part.kind, Number) else None
-        value = search.solution.answers.get(part.label)
-        if found and found[1] not in of_steps and plain(value):
-            letter = spelled_out.get(found[1], found[1])
-            if letter not in search.problem.given.left_open:
-                asked[letter] = value
-    return asked
 
 
 def _worked_with(text: str) -> Numbers | None:
     """The numbers of the first side of a line that is worked out; None where every side is one number."""
     found = map(numbers_typed, _SIDES.split(text))
     return next((side for side in found if side is not None), None)
-
-
-def _is_array(value: Any) -> bool:
-    return isinstance(value, Vector) or is_matrix(value)
-
-
-def _shape(value: Any) -> tuple[int, int]:
-    return (1, len(list(value))) if isinstance(value, Vector) else (value.nrows(), value.ncols())
 
 
 def _of_an_equation(application: Application, given: Any) -> Iterator[Cause]:
@@ -869,14 +711,6 @@ def _where(value: Any, found: Mapping[str, Any]) -> Any:
     return (
         value_where(value, lambda name: found.get(name, generator(name))) if parameters(value) & found.keys() else value
     )
-
-
-def _given_by(line: Any) -> Iterator[tuple[Expr, Any]]:
-    """The names and numbers of a line of the working that is no step."""
-    if isinstance(line, Result):
-        yield from ((left, value) for left, value in zip(line.lefts, line.values, strict=True) if plain(value))
-    elif isinstance(line, Equality) and isinstance(line.left, Expr):
-        yield from ((line.left, value) for value in line.rights if plain(value) and not isinstance(value, Expr))
 
 
 def _in_equations(work: Work) -> Iterator[Any]:

