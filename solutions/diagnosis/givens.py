@@ -272,11 +272,11 @@ def _row(row: Any, name: str, place: int) -> Changed:
     """One row of a table: a number in it without its minus, two of its numbers exchanged."""
     if isinstance(row, BaseModel):
         where = f"of the {ordinal(place)} of the {name}"
-        for kind, changed, what in _model(row):
+        for kind, other, what in _model(row):
             if (kind, what) == ("one-too-many", "times"):
-                yield "counted-again", changed, f"{ordinal(place)} of the {name}"
+                yield "counted-again", other, f"{ordinal(place)} of the {name}"
             else:
-                yield kind, changed, _at(what, where)
+                yield kind, other, _at(what, where)
         return
     entries: Sequence[Any] = row
     make = row._replace if hasattr(row, "_fields") else None
