@@ -67,15 +67,20 @@ def explained(
     shares = Weighing(outcomes, typed, found).shares()
     if again:
         shares = [MADE_BEFORE * share / sum(shares) for share in shares]
-    shares = _beside_others(causes, shares)
-    groups = [sorted(group, key=lambda one: (_standing(causes[one]), -shares[one])) for group in distinct(causes)]
-    told = likeliest(shares, groups)
+    told = likeliest(shares, _grouped(causes, shares))
     of_two = all(cause.then is not None for cause in causes)
     enough = sum(shares) >= (ENOUGH_FOR_TWO if of_two else ENOUGH) and sum(share for share, _ in told) >= TOLD
     if not enough or (not finished and not again and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
-    told = _with_its_like(told, groups, causes, shares)
+    shares = _beside_others(causes, shares)
+    groups = _grouped(causes, shares)
+    told = _with_its_like(likeliest(shares, groups), groups, causes, shares)
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
+
+
+def _grouped(causes: Sequence[Cause], shares: Sequence[float]) -> list[list[int]]:
+    """The causes that say the same, of each group the one first that stands for it."""
+    return [sorted(group, key=lambda one: (_standing(causes[one]), -shares[one])) for group in distinct(causes)]
 
 
 def _doubted(outcomes: Outcomes, outcome: Outcome, wrong: Mapping[str, Any] | None) -> Outcome:

@@ -219,8 +219,8 @@ def _same_order(rows: tuple[Any, ...], swapped: tuple[Any, ...]) -> bool:
 
 
 def _lines_exchanged(one: Any, two: Any) -> Iterator[tuple[str, Any, Any]]:
-    """Two lines of a table with the entries of one column exchanged: numbers, and the states that they lead to."""
-    for column in getattr(one, "_fields", ()):
+    """Two ways from state to state with the entries of one column exchanged: numbers, and where they lead to."""
+    for column in one._fields if hasattr(one, "next") else ():
         here, there = getattr(one, column), getattr(two, column)
         if here == there or not (column == "next" or (_number(here) and _number(there))):
             continue

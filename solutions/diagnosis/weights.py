@@ -116,7 +116,7 @@ PROCEDURE = {
     "counted-again": 1.5,
     "givens-exchanged": 2.0,
     "rows-exchanged": 1.0,
-    "lines-exchanged": 2.0,
+    "lines-exchanged": 1.5,
     "another-row": 2.0,
     "led-elsewhere": 1.5,
     "rows-and-columns": 9.0,
