@@ -169,7 +169,7 @@ ANSWERS = {
 #: How much likelier it is that somebody gives 1 minus the answer where one of two shares is asked for.
 OF_TWO = 12.0
 #: Beside other causes another line of the same table, read in one term of a sum, counts so many times its weight.
-BESIDE_OTHERS = 4.0
+BESIDE_OTHERS = 6.0
 #: How much less likely it is that a number that is typed with more digits than needed has wrong ones behind the third.
 LOOSE = 0.1
 #: A mistake that somebody thought of when the family was written.
