@@ -21,6 +21,8 @@ from rldrill.solutions.diagnosis.weights import ALIKE, SLIPS
 ENOUGH, TOLD = 0.57, 0.4
 #: So likely two causes together must be: one that nobody thought of often gives what two others give by chance.
 ENOUGH_FOR_TWO = 0.9
+#: So likely edits must be that a right answer to a part before denies: who made them did not go on from it.
+ENOUGH_ANEW = 0.7
 #: So sure it is that somebody did what gives the wrong answers to the parts before as well.
 MADE_BEFORE = 0.95
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
@@ -68,14 +70,20 @@ def explained(
     if again:
         shares = [MADE_BEFORE * share / sum(shares) for share in shares]
     told = likeliest(shares, _grouped(causes, shares))
-    of_two = all(cause.then is not None for cause in causes)
-    enough = sum(shares) >= (ENOUGH_FOR_TWO if of_two else ENOUGH) and sum(share for share, _ in told) >= TOLD
+    enough = sum(shares) >= _demanded(causes) and sum(share for share, _ in told) >= TOLD
     if not enough or (not finished and not again and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
     shares = _beside_others(causes, shares)
     groups = _grouped(causes, shares)
     told = _with_its_like(likeliest(shares, groups), groups, causes, shares)
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
+
+
+def _demanded(causes: Sequence[Cause]) -> float:
+    """How likely causes must be all together to be told."""
+    if all(cause.then is not None for cause in causes):
+        return ENOUGH_FOR_TWO
+    return ENOUGH_ANEW if all(cause.anew and cause.mistake is None for cause in causes) else ENOUGH
 
 
 def _grouped(causes: Sequence[Cause], shares: Sequence[float]) -> list[list[int]]:

@@ -81,6 +81,22 @@ def test_another_line_is_read(given: dict[str, Any], typed: str, says: str) -> N
     assert says in rldrill.read(given).diagnose(typed).sentence
 
 
+def test_an_episode_is_counted_twice() -> None:
+    # warm (4 + 4 + 0)/3 = 8/3, and cool (4 + 1 + 1 + 4)/4 = 5/2 for (4 + 1 + 4)/3 = 3
+    episodes = [(["warm", "cool"], [2, 4]), (["warm"], [4]), (["warm"], [0]), (["cool"], [1]), (["cool"], [4])]
+    given = {"episodes": [{"states": states, "rewards": rewards} for states, rewards in episodes], "gamma": "1/2"}
+    said = rldrill.read({"family": "batch-td-and-mc", "given": given}).diagnose("8/3, 5/2").sentence
+    assert said.startswith("It looks as if the fourth of the episodes is counted twice")
+
+
+def test_two_causes_at_once_are_told_only_where_that_is_sure() -> None:
+    # J = [√2/2 √2; −3√2/2 −√2] has the determinant 2. Its inverse with neither minus beside the diagonal turned gives
+    # 1/2·(−√2·8 + √2·(−12)) = −10√2 and 1/2·(−3√2/2·8 + √2/2·(−12)) = −9√2: one error, and not two.
+    given = {"lengths": [1, 2], "angles": ["3*pi/4", "pi/2"], "velocity": [8, -12]}
+    exercise = rldrill.read({"family": "jacobian", "given": given})
+    assert not exercise.diagnose("-10√2, -9√2", "b").explains
+
+
 def test_whole_lines_that_are_exchanged_change_nothing_and_are_not_tried() -> None:
     search = rldrill.read(RESIDUAL).diagnosing.search({})
     assert "entries-exchanged" not in [candidate.cause.kind for candidate in search._misread()]

@@ -138,6 +138,22 @@ def test_no_mistake_is_to_blame_where_nothing_follows_from_an_answer_before() ->
     assert graded["b"].outcome is not Outcome.MISCONCEPTION
 
 
+def test_who_goes_on_from_the_prior_is_told_of_no_table() -> None:
+    # After x 3/16 to 3/16; with y alone 1/4·1/8 to 3/4·1/2 and so 1/13.
+    given = {
+        "prior": {"sound": "1/4", "worn": "3/4"},
+        "likelihood": {
+            "x": {"sound": "3/4", "worn": "1/4"},
+            "y": {"sound": "1/8", "worn": "1/2"},
+            "z": {"sound": "1/8", "worn": "1/4"},
+        },
+        "measurements": ["x", "y"],
+    }
+    exercise = rldrill.read({"family": "bayes-rule", "given": given})
+    said = exercise.diagnose("1/13, 12/13", "b", {"a": "1/2, 1/2"}).sentence
+    assert said.startswith("It looks as if every step goes on from what there was at the start")
+
+
 def test_what_gives_the_wrong_answer_before_as_well_is_told_again() -> None:
     # floor ← −4 + 1/4·(9 + 3/4·x + 4), then rim from there, then floor ← 3/4·floor + 2, which is 2: floor was 0, x = 4.
     # With 9 + 3/4·x − 4 in the first bracket x = 44/3, and rim ← 44/3 + 1/4·(6 + 0 − 44/3) = 25/2.
