@@ -213,14 +213,19 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
 
 def _same_order(rows: tuple[Any, ...], swapped: tuple[Any, ...]) -> bool:
     """Whether two orders of lines say the same: a table of transitions, in which the states keep their places."""
-    if not all(hasattr(row, "state") and hasattr(row, "next") for row in rows):
+    if not _is_way(rows[0]):
         return False
     return list(dict.fromkeys(row.state for row in rows)) == list(dict.fromkeys(row.state for row in swapped))
 
 
+def _is_way(row: Any) -> bool:
+    """Whether a line of a table leads from one state to the next."""
+    return hasattr(row, "state") and hasattr(row, "next")
+
+
 def _lines_exchanged(one: Any, two: Any) -> Iterator[tuple[str, Any, Any]]:
     """Two ways from state to state with the entries of one column exchanged: numbers, and where they lead to."""
-    for column in one._fields if hasattr(one, "next") else ():
+    for column in one._fields if _is_way(one) else ():
         here, there = getattr(one, column), getattr(two, column)
         if here == there or not (column == "next" or (_number(here) and _number(there))):
             continue
