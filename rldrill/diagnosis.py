@@ -217,7 +217,7 @@ class Diagnosing:
         with self._one:
             found = explained(self.outcomes(label, {}), self._typed(label, text), clock, settled)
         pairs = zip(found.causes, found.shares, strict=True)
-        if sum(share for cause, share in pairs if cause.weight >= SURE_ENOUGH) < _SURE:
+        if sum(share for cause, share in pairs if cause.weight >= SURE_ENOUGH and not cause.anew) < _SURE:
             return verdict
         said = self.solution.problem.written(lambda: _told(found, self.search({}).applications))
         return replace(verdict, outcome=Outcome.WRONG, says=said.sentence)
@@ -357,6 +357,8 @@ def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
     )
     said = _causes_told(causes, applications)
     said = f"It{said[2:]}" if causes[0].mistake is None else said  # α and γ stay small
+    if left := causes[0].anew:
+        said = f"This does not seem to go on from your answer to ({left}), which is right. {said}"
     return replace(first, sentence=said, alternatives=tuple(others))
 
 

@@ -135,6 +135,11 @@ class Solution(Struct, frozen=True, dict=True):
             and re.search(rf"(?<!\w){found.sign}(?!\w)", asks[label])
         }
 
+    def is_one_of_two_shares(self, label: str) -> bool:
+        """Whether a part asks for a letter beside which 1 minus the letter is given, the probability of the other."""
+        found = self.sought.get(label)
+        return found is not None and _has_complement(found.letter, self.problem)
+
     def can_be(self, found: Found, value: Value) -> bool:
         """Whether a letter that was found can have a value, too."""
         return _is_in_range(found, value, self.problem)
@@ -299,7 +304,12 @@ def _is_in_range(found: Found, value: Value, problem: Problem) -> bool:
     if above == 0:
         return "alpha" not in stands_for
     ranged = found.share or stands_for & _RANGED
-    return not ranged and repr(f"1-{letter}") not in str(problem.given.model_dump())
+    return not ranged and not _has_complement(letter, problem)
+
+
+def _has_complement(letter: str, problem: Problem) -> bool:
+    """Whether 1 minus a letter is given, too."""
+    return repr(f"1-{letter}") in str(problem.given.model_dump())
 
 
 def _letters(field: object) -> Iterator[str]:

@@ -243,19 +243,35 @@ def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
     """The misconceptions that give this answer, from the start or from the person's earlier answers.
 
-    One from the start is none if the earlier answers that were right deny it: with them it does not give this answer.
+    One from the start is none if the earlier answers deny it: with the right ones it does not give this answer, or
+    neither gives the wrong ones nor this answer with them.
     """
-    right = {
-        label: solution.answers[label] for label, value in earlier.items() if not solution.tells_apart({label: value})
-    }
+    wrong = {label: value for label, value in earlier.items() if solution.tells_apart({label: value})}
+    right = {label: solution.answers[label] for label in earlier if label not in wrong}
+
+    def stands(misconception: Misconception, answers: Mapping[str, Any]) -> bool:
+        if right and not matches(part, cells, solution.answers_with(misconception, right) or {}):
+            return False
+        if not wrong or all(label in answers and not _differ(solution, label, answers, wrong) for label in wrong):
+            return True
+        return matches(part, cells, solution.answers_with(misconception, earlier) or {})
+
     made = tuple(
         misconception
         for misconception, answers in solution.mistakes
-        if matches(part, cells, answers)
-        and (not right or matches(part, cells, solution.answers_with(misconception, right) or {}))
+        if matches(part, cells, answers) and stands(misconception, answers)
     )
-    later = solution.mistaken(earlier) if earlier and not made else ()
+    # where nothing follows from what was answered before, a mistake that makes it follow is not to blame
+    later = solution.mistaken(earlier) if earlier and not made and part.label in solution.following(earlier) else ()
     return made or tuple(misconception for misconception, answers in later if matches(part, cells, answers))
+
+
+def _differ(solution: Solution, label: str, answers: Mapping[str, Any], others: Mapping[str, Any]) -> bool:
+    """Whether two answers to a part are told apart; those of other cells are."""
+    try:
+        return solution.differ(label, answers[label], others[label])
+    except (KeyError, NotReal):
+        return True
 
 
 def _told(kind: Kind, made: tuple[Misconception, ...]) -> tuple[Misconception, ...]:

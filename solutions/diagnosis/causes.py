@@ -30,6 +30,7 @@ class Cause(Struct, frozen=True, eq=False):
         on_paper: whether it was done to the answer, behind the working.
         then: what was done besides.
         always: whether it was done wherever the quantity of the application is worked out, in every sweep.
+        anew: the part before whose right answer it does not go on from; empty where it denies none.
     """
 
     kind: str
@@ -48,6 +49,7 @@ class Cause(Struct, frozen=True, eq=False):
     on_paper: bool = False
     then: "Cause | None" = None
     always: bool = False
+    anew: str = ""
 
 
 #: The answers that a cause leads to, for somebody who goes on from these answers to earlier parts.

@@ -5,8 +5,10 @@ from functools import cache
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 from sympy import Expr, preorder_traversal
 
+from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.outcomes import Outcome, Outcomes
@@ -17,6 +19,10 @@ from rldrill.solutions.diagnosis.weights import ALIKE, SLIPS
 #: All causes together are so likely, the rest is chance; and so likely are those that are told. Then about one number
 #: from nowhere in twenty is accused of something.
 ENOUGH, TOLD = 0.57, 0.4
+#: So likely two causes together must be: one that nobody thought of often gives what two others give by chance.
+ENOUGH_FOR_TWO = 0.9
+#: So likely edits must be that a right answer to a part before denies: who made them did not go on from it.
+ENOUGH_ANEW = 0.7
 #: So sure it is that somebody did what gives the wrong answers to the parts before as well.
 MADE_BEFORE = 0.95
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
@@ -58,18 +64,52 @@ def explained(
     if not found:
         return Explained()
     again = [each for each in found if outcomes.gives_before(each, wrong)] if wrong else []
-    found = again or found
+    found = again or [_doubted(outcomes, each, wrong) for each in found]
     causes = [each.cause for each in found]
     shares = Weighing(outcomes, typed, found).shares()
     if again:
         shares = [MADE_BEFORE * share / sum(shares) for share in shares]
-    groups = [sorted(group, key=lambda one: (_standing(causes[one]), -shares[one])) for group in distinct(causes)]
-    told = likeliest(shares, groups)
-    enough = sum(shares) >= ENOUGH and sum(share for share, _ in told) >= TOLD
+    told = likeliest(shares, _grouped(causes, shares))
+    enough = sum(shares) >= _demanded(causes) and sum(share for share, _ in told) >= TOLD
     if not enough or (not finished and not again and causes[told[0][1]].weight < SURE_ENOUGH):
         return Explained()
-    told = _with_its_like(told, groups, causes, shares)
+    shares = _beside_others(causes, shares)
+    groups = _grouped(causes, shares)
+    told = _with_its_like(likeliest(shares, groups), groups, causes, shares)
     return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
+
+
+def _demanded(causes: Sequence[Cause]) -> float:
+    """How likely causes must be all together to be told."""
+    if all(cause.then is not None for cause in causes):
+        return ENOUGH_FOR_TWO
+    return ENOUGH_ANEW if all(cause.anew and cause.mistake is None for cause in causes) else ENOUGH
+
+
+def _grouped(causes: Sequence[Cause], shares: Sequence[float]) -> list[list[int]]:
+    """The causes that say the same, of each group the one first that stands for it."""
+    return [sorted(group, key=lambda one: (_standing(causes[one]), -shares[one])) for group in distinct(causes)]
+
+
+def _doubted(outcomes: Outcomes, outcome: Outcome, wrong: Mapping[str, Any] | None) -> Outcome:
+    """An outcome, less likely where somebody who goes on from own wrong answers to the parts before gets another."""
+    if not wrong or outcomes.stands(outcome, wrong):
+        return outcome
+    return replace(outcome, cause=replace(outcome.cause, weight=outcome.cause.weight * weights.ANEW))
+
+
+def _beside_others(causes: Sequence[Cause], shares: Sequence[float]) -> list[float]:
+    """The shares of one whole, in which a line of a table that was read for another counts more beside other causes.
+
+    Of each such line alone little can be said, for there are many of them; but all together they are a common mistake.
+    """
+    counts = [weights.BESIDE_OTHERS if _is_another_line(cause) else 1.0 for cause in causes]
+    read = [share * count for share, count in zip(shares, counts, strict=True)]
+    return [share * sum(shares) / sum(read) for share in read]
+
+
+def _is_another_line(cause: Cause) -> bool:
+    return cause.kind == "another-line" and bool(cause.term)
 
 
 def _standing(cause: Cause) -> int:
@@ -117,13 +157,28 @@ def giving(outcomes: Outcomes, typed: Typed, clock: Clock, settled: Mapping[str,
         return [outcome for outcome in found if outcomes.stands(outcome, settled)]
 
     finished = outcomes.grow(clock)
-    found = standing(outcomes.giving(typed))
+    every = outcomes.giving(typed)
+    found = standing(every)
+    found += _anew(outcomes, every, found, settled)
     if not found and many >= ROOM_FOR_TWO and finished:
         found = standing(outcomes.giving_apart(typed))
         if not found:
             finished = outcomes.grow_pairs(clock)
             found = standing(outcomes.giving_in_turn(typed))
     return sorted(found, key=lambda each: -each.cause.weight), finished
+
+
+def _anew(
+    outcomes: Outcomes, every: Sequence[Outcome], standing: Sequence[Outcome], settled: Mapping[str, Any]
+) -> list[Outcome]:
+    """What somebody does who goes on from no right answer before.
+
+    Where something is found that denies none, that is a stated mistake alone, and one likelier than all of these.
+    """
+    highest = max((each.cause.weight for each in standing), default=0.0)
+    denied = [each for each in every if not any(each is other for other in standing)]
+    found = [anew for each in denied if (anew := outcomes.anew(each, settled)) is not None]
+    return [each for each in found if not standing or (each.cause.mistake and each.cause.weight > highest)]
 
 
 def distinct(causes: Sequence[Cause]) -> list[list[int]]:
@@ -152,6 +207,8 @@ def _alike(one: Cause, two: Cause) -> bool:
         return one.mistake.says == two.mistake.says
     if one.mistake or two.mistake:
         return _is_stated(one, two) or _is_stated(two, one)
+    if one.probe is not None and two.probe is not None and one.application is two.application:
+        return _overlap(one.probe.part, two.probe.part)  # −5 is put in for V(s′), or for γV(s′)
     if {one.kind, two.kind} <= SLIPS and one.probe is None and two.probe is None:
         return True
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)

@@ -1,7 +1,7 @@
 """The givens misread: another problem that somebody solves who reads one thing wrongly."""
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import combinations, permutations
 from typing import Any
 
 from msgspec import Struct
@@ -9,9 +9,12 @@ from pydantic import BaseModel, ValidationError
 
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Transition
+from rldrill.problems.transition_tables import ALONE
 
 #: At most so many values of a table are tried one by one.
 _MOST = 24
+#: Of a table of more rows than this none is tried in the place of another.
+_FEW_ROWS = 3
 
 #: What the entries of a list are called, where the name of its field says that of none of them.
 _ENTRIES = {
@@ -43,6 +46,11 @@ _IN_TURN = ("measurements", "actions")
 #: What is done to the order of a list is done all along: who had the right answer to a part before did not do it.
 OF_THE_ORDER = frozenset(("reversed", "entries-exchanged", "entry-left-out"))
 
+#: Who takes one number for another does not notice that those which are stated no longer fit together.
+_UNNOTICED = frozenset(("minus-lost", "rows-exchanged", "lines-exchanged", "end-unpaid"))
+#: What a column of a table of transitions or the like is called, where the name of its field does not say that.
+_COLUMNS = {"next": "next state"}
+
 
 class Misread(Struct, frozen=True):
     """Givens in which one thing is read wrongly, and what was done: a name, and what is said of it."""
@@ -56,6 +64,23 @@ def misread(given: BaseModel) -> Iterator[Misread]:
     """The givens with one thing read wrongly, those alone that make a problem."""
     for kind, changed, what in _model(given):
         yield Misread(kind, changed, what)
+
+
+def led_elsewhere(given: BaseModel) -> Iterator[Misread]:
+    """The givens with one transition that is taken to lead to another state, those alone that make a problem."""
+    for name in type(given).model_fields:
+        model = getattr(given, name)
+        if not isinstance(model, Model):
+            continue
+        rows = model.transitions
+        for place, row in enumerate(rows):
+            for state in (*model.states, *model.terminal):
+                if state != row.next:
+                    other = (*rows[:place], row._replace(next=state), *rows[place + 1 :])
+                    leaving = row.state if row.action == ALONE else f"{row.action} in {row.state}"
+                    what = f"{leaving} is taken to lead to {state}, not to {row.next}"
+                    for _, changed, _ in _again(model, {"transitions": other}, "", ""):
+                        yield from (Misread(*each) for each in _again(given, {name: changed}, "led-elsewhere", what))
 
 
 Changed = Iterator[tuple[str, Any, str]]
@@ -90,7 +115,9 @@ def _again(model: BaseModel, update: dict[str, Any], kind: str, what: str) -> Ch
     try:
         yield kind, type(model)(**{**fields, **update}), what
     except (ValidationError, ValueError, TypeError, ArithmeticError, LookupError):
-        return
+        if kind in _UNNOTICED:
+            every = {name: getattr(model, name) for name in type(model).model_fields}
+            yield kind, type(model).model_construct(**{**every, **update}), what
 
 
 def _number(value: object) -> bool:
@@ -136,6 +163,11 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
             yield "rows-exchanged", {**value, one: value[two], two: value[one]}, what
     if len(keys) == 2 and all(isinstance(row, dict) for row in value.values()):
         yield from _of_columns(value, name)
+    if 1 < len(keys) <= _FEW_ROWS and all(isinstance(row, dict) for row in value.values()):
+        for one, two in permutations(keys, 2):
+            if value[one].keys() == value[two].keys() and value[one] != value[two]:
+                what = f"the row of {_named(two)} is read for that of {_named(one)} in {name}"
+                yield "another-row", {**value, one: value[two]}, what
     for key in keys:
         if isinstance(value[key], BaseModel | dict):
             where = f"{'of' if isinstance(value[key], BaseModel) else 'at'} {_named(key)}"
@@ -159,7 +191,11 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
         yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{ordinal(place)} of the {name}"
         if place + 1 < len(value) and value[place] != value[place + 1]:
             swapped = (*value[:place], value[place + 1], value[place], *value[place + 2 :])
-            yield "entries-exchanged", swapped, f"{name}, {ordinal(place)} and {ordinal(place + 1)}"
+            if len(value) > 2 and not _same_order(value, swapped):  # the opposite order of two is an exchange
+                yield "entries-exchanged", swapped, f"{name}, {ordinal(place)} and {ordinal(place + 1)}"
+            for column, *pair in _lines_exchanged(value[place], value[place + 1]):
+                where = f"{column} of the {ordinal(place)} and the {ordinal(place + 1)} of the {name}"
+                yield "lines-exchanged", (*value[:place], *pair, *value[place + 2 :]), where
         if _number(value[place]) and value[place] < 0:
             yield (
                 "minus-lost",
@@ -173,6 +209,31 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
             above = _as_above(value, name, place) if place else ()
             for kind, changed, what in (*_row(value[place], name, place), *above):
                 yield kind, (*value[:place], changed, *value[place + 1 :]), what
+
+
+def _same_order(rows: tuple[Any, ...], swapped: tuple[Any, ...]) -> bool:
+    """Whether two orders of lines say the same: a table of transitions, in which the states keep their places."""
+    if not _is_way(rows[0]):
+        return False
+    return list(dict.fromkeys(row.state for row in rows)) == list(dict.fromkeys(row.state for row in swapped))
+
+
+def _is_way(row: Any) -> bool:
+    """Whether a line of a table leads from one state to the next."""
+    return hasattr(row, "state") and hasattr(row, "next")
+
+
+def _lines_exchanged(one: Any, two: Any) -> Iterator[tuple[str, Any, Any]]:
+    """Two ways from state to state with the entries of one column exchanged: numbers, and where they lead to."""
+    for column in one._fields if _is_way(one) else ():
+        here, there = getattr(one, column), getattr(two, column)
+        if here == there or not (column == "next" or (_number(here) and _number(there))):
+            continue
+        if column == "probability" and (one.state, one.action) != (two.state, two.action):
+            continue
+        if column == "next" and not hasattr(one, "action"):
+            continue  # ways from one state: it is their rewards that are exchanged
+        yield _COLUMNS.get(column, column), one._replace(**{column: there}), two._replace(**{column: here})
 
 
 def _turned(value: Any) -> Any:
@@ -216,7 +277,11 @@ def _row(row: Any, name: str, place: int) -> Changed:
     """One row of a table: a number in it without its minus, two of its numbers exchanged."""
     if isinstance(row, BaseModel):
         where = f"of the {ordinal(place)} of the {name}"
-        yield from ((kind, changed, _at(what, where)) for kind, changed, what in _model(row))
+        for kind, other, what in _model(row):
+            if (kind, what) == ("one-too-many", "times"):
+                yield "counted-again", other, f"{ordinal(place)} of the {name}"
+            else:
+                yield kind, other, _at(what, where)
         return
     entries: Sequence[Any] = row
     make = row._replace if hasattr(row, "_fields") else None

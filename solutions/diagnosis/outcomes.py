@@ -130,7 +130,8 @@ class Outcomes:
         self._bearing: list[Application] = []
         self._growth = self._at_applications()
         self._pairs = self._in_turn()
-        for cause, cells in (*written_down(part, key, search.applications), *self._of_parts_before()):
+        of_two = search.solution.is_one_of_two_shares(part.label)
+        for cause, cells in (*written_down(part, key, search.applications, of_two=of_two), *self._of_parts_before()):
             self._keep(cause, cells)
 
     def _of_parts_before(self) -> Iterator[tuple[Cause, Mapping[str, Any]]]:
@@ -304,6 +305,18 @@ class Outcomes:
             return True
         cells = self.cells_of(again(settled))
         return cells is not None and all(equal(cells[name], right) for name, right in (outcome.cells or {}).items())
+
+    def anew(self, outcome: Outcome, settled: Mapping[str, Any]) -> Outcome | None:
+        """A formula misread by somebody who works the part out anew, and does not go on from a right answer before.
+
+        A slip of arithmetic, and a number read wrongly, would have spoilt that answer: of these there is none.
+        """
+        cause = outcome.cause
+        if cause.mistake is None and cause.edit is None:
+            return None
+        denying = [label for label in settled if not self.stands(outcome, {label: settled[label]})] or [max(settled)]
+        weight = cause.weight * weights.ANEW ** (len(denying) if cause.mistake is None else 1)
+        return replace(outcome, cause=replace(cause, weight=weight, anew=max(denying)))
 
     def gives_before(self, outcome: Outcome, wrong: Mapping[str, Any]) -> bool:
         """Whether a cause gives these wrong answers to parts before, and with them what it is said to give here."""

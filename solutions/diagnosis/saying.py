@@ -39,10 +39,13 @@ _EDITS = {
     "index": "{instead} stands where {part} belongs",
     "twin": "{instead} stands where {part} belongs",
     "range": "there is a term too many or too few in the sum",
+    "factor-moved": "{instead} stands where {part} belongs",
+    "other-table": "{instead} stands where {part} belongs",
     "complement": "{instead} stands where {part} belongs",
     "complement-of-value": "{instead} stands where {part} belongs",
     "confused": "{instead} stands where {part} belongs",
     "exchanged": "{part} and {instead} are exchanged",
+    "arguments-exchanged": "{part} and {instead} are exchanged",
     "squared": "the factor {part} is there twice",
     "squared-value": "the factor {part} is there twice",
     "added": "the factors of {part} are added instead of multiplied",
@@ -113,12 +116,17 @@ _VALUES = {
 #: What happened all along, or to the answer.
 _WHOLE = {
     "stale": "the old values are used all along, though some of them have been updated",
+    "stale…": "every step goes on from what there was at the start, not from what the step before gave",
     "early": "new values are used at once, though they should wait for the next round",
     "round-left-out": "the {what} round of updates is left out",
     "one-too-many": "it is one too many: {what}",
     "one-too-few": "it is one too few: {what}",
+    "counted-again": "the {what} is counted twice",
     "givens-exchanged": "two givens are exchanged: {what}",
     "rows-exchanged": "two entries are exchanged: {what}",
+    "lines-exchanged": "two entries are exchanged: {what}",
+    "another-row": "{what}",
+    "led-elsewhere": "{what}",
     "rows-and-columns": "rows and columns are exchanged in {what}",
     "end-unpaid": "the rewards for reaching a terminal state are left out, whose value alone is 0",
     "as-above": "the {what} is taken over from the one before",
@@ -182,7 +190,7 @@ def _what(cause: Cause) -> Words:
         return _filled(template, was=write(was), became=write(became))
     if cause.application is not None:
         return _filled(_WHOLE[cause.kind + cause.what], left=typeset(cause.application.step.left))
-    template = _WHOLE.get(cause.kind, _WHOLE[""])
+    template = _WHOLE.get(cause.kind + cause.what) or _WHOLE.get(cause.kind, _WHOLE[""])
     was = None if cause.was is None else _number(cause.was)
     words = _filled(template, what=cause.what.replace("_", " "), was=was)
     return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words

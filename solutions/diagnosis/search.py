@@ -3,7 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 import sympy
@@ -29,7 +29,7 @@ from rldrill.solutions.diagnosis.alternatives import (
 )
 from rldrill.solutions.diagnosis.causes import Candidate, Cause
 from rldrill.solutions.diagnosis.clock import Clock
-from rldrill.solutions.diagnosis.givens import OF_THE_ORDER, misread
+from rldrill.solutions.diagnosis.givens import OF_THE_ORDER, led_elsewhere, misread
 from rldrill.solutions.diagnosis.replay import (
     Application,
     Change,
@@ -206,9 +206,11 @@ class Search:
             return {name: {**value, **replay.found.get(name, {})} if name in codes else value
                     for name, value in known.items()}  # fmt: skip
 
-        yield from self._candidate(Cause("stale", weights.PROCEDURE["stale"]), Change(habit=stale))
+        tables = any(application.formula.sign == "←" for application in self.applications)
+        old = Cause("stale", weights.PROCEDURE["stale"], what="" if tables else "…")  # a belief has no old entries
+        yield from self._candidate(old, Change(habit=stale))
         if (values := self._all_from_the_first()) is not None:
-            yield from self._candidate(Cause("stale", weights.PROCEDURE["stale"]), Change(values=values))
+            yield from self._candidate(old, Change(values=values))
         yield from self._candidate(Cause("early", weights.PROCEDURE["early"]), Change(habit=early))
         yield from self._rounds()
 
@@ -246,7 +248,10 @@ class Search:
                 yield from self._candidate(cause, Change(values=values))
 
     def _misread(self) -> Iterator[Candidate]:
-        for other in misread(self.problem.given):
+        every = misread(self.problem.given)
+        if any(application.equation for application in self.applications):
+            every = chain(every, led_elsewhere(self.problem.given))
+        for other in every:
             answers = self._with_givens(other.given, {})
             again = partial(self._with_givens, other.given)
             if other.kind in OF_THE_ORDER:

@@ -17,6 +17,9 @@ IDEAS = {
     "difference": 3.8,
     "order-of-factors": 3.6,
     "exchanged": 3.5,
+    "arguments-exchanged": 5.0,
+    "factor-moved": 3.0,
+    "other-table": 12.0,
     "choice": 3.4,
     "case": 3.4,
     "range": 3.3,
@@ -66,7 +69,7 @@ ALIKE = (
     {"another-quantity", "another-part"},
     {"answer-rearranged", "answer-reversed", "answer-transposed"},
     {"reversed", "entries-exchanged"},
-    {"twin", "elsewhere", "another-line", "index"},
+    {"twin", "other-table", "elsewhere", "another-line", "index"},
     {"other-taken", "min-for-max", "elsewhere", "another-line", "choice"},
 )
 #: Slips of arithmetic that are told in the same words.
@@ -110,14 +113,18 @@ PROCEDURE = {
     "round-left-out": 5.0,
     "one-too-many": 4.0,
     "one-too-few": 4.0,
+    "counted-again": 1.5,
     "givens-exchanged": 2.0,
     "rows-exchanged": 1.0,
+    "lines-exchanged": 1.5,
+    "another-row": 2.0,
+    "led-elsewhere": 1.5,
     "rows-and-columns": 9.0,
     "as-above": 1.0,
     "end-unpaid": 6.0,
     "minus-lost": 3.0,
     "complement": 1.0,
-    "reversed": 1.5,
+    "reversed": 2.5,
     "entry-left-out": 1.5,
     "entries-exchanged": 1.0,
     "number-moved": 5.0,
@@ -127,6 +134,9 @@ PROCEDURE = {
 }
 #: How much less likely it is that somebody errs here alone who did the same rightly in a part before.
 HERE_ALONE = 0.5
+
+#: How much less likely it is that somebody does not go on from the right answer to a part before.
+ANEW = 0.2
 
 #: What happens between the working and the answer.
 ANSWERS = {
@@ -156,6 +166,10 @@ ANSWERS = {
     "term-tenfold": 0.5,
 }
 
+#: How much likelier it is that somebody gives 1 minus the answer where one of two shares is asked for.
+OF_TWO = 12.0
+#: Beside other causes another line of the same table, read in one term of a sum, counts so many times its weight.
+BESIDE_OTHERS = 6.0
 #: How much less likely it is that a number that is typed with more digits than needed has wrong ones behind the third.
 LOOSE = 0.1
 #: A mistake that somebody thought of when the family was written.

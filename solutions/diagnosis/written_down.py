@@ -25,8 +25,10 @@ from rldrill.solutions.formula.notation import Quantity
 WrittenDown = Iterator[tuple[Cause, Mapping[str, Any]]]
 
 
-def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Application]) -> WrittenDown:
-    """What can go wrong between the working and the answer to a part."""
+def written_down(
+    part: Part, key: Mapping[str, Any], applications: Sequence[Application], *, of_two: bool = False
+) -> WrittenDown:
+    """What can go wrong between the working and the answer to a part; ``of_two``: it asks for one of two shares."""
     if any(isinstance(value, str | tuple) for value in key.values()):
         return
     if len(key) > 1:
@@ -49,7 +51,8 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
     if len(key) == 1:
         ((name, value),) = key.items()
         share = is_rational(value) and 0 < value < 1
-        yield _cause("one-minus", likely=1.0 if share else weights.NO_SHARE), {name: 1 - value}
+        likely = 1.0 if share else weights.NO_SHARE
+        yield _cause("one-minus", likely=weights.OF_TWO if of_two else likely), {name: 1 - value}
         yield _cause("percent"), {name: value * 100}
         asked = _asked(key, applications)
         for application in applications:

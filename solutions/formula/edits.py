@@ -7,6 +7,7 @@ inside of a sum or maximum can also be made for one of its terms only: it then d
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
+from itertools import combinations, pairwise, product
 
 import sympy
 from msgspec import Struct
@@ -257,6 +258,7 @@ def _of_sum(part: Expr) -> Iterator[Change]:
             yield "complement", _unsigned(terms[1]), part, _unsigned(terms[1])
         if (whole := _power_of_sum(*terms)) is not None:
             yield "power-of-sum", whole, part, whole
+    yield from _of_two_terms(terms)
     for place, term in enumerate(terms):
         factors = term.args
         if not term.is_Mul or factors[0] == -1:
@@ -275,6 +277,49 @@ def _of_sum(part: Expr) -> Iterator[Change]:
             if len(terms) > 2:
                 whole = Mul(*before, Add(*_others(terms, place), _product(behind), evaluate=False), evaluate=False)
                 yield "bracket", whole, part, None
+
+
+def _of_two_terms(terms: Sequence[Expr]) -> Iterator[Change]:
+    """Two terms of a sum that are taken for one another: the factor of one stands at the other; or two arguments do."""
+    for place, (one, two) in enumerate(pairwise(terms)):
+        for first, second in ((one, two), (two, one)):
+            for factor, rest in _factors(second):
+                if isinstance(first, Quantity | Over) and _is_plain(rest):
+                    pair = _product([factor, first]), rest
+                    instead = _sum(pair if first is one else pair[::-1])
+                    was = _sum([one, two])
+                    yield "factor-moved", _sum([*terms[:place], *instead.args, *terms[place + 2 :]]), was, instead
+    for one, two in combinations(range(len(terms)), 2):
+        for here, there in product(_quantities(terms[one]), _quantities(terms[two])):
+            if here.func is not there.func or here.args == there.args:
+                continue
+            changed = list(terms)
+            changed[one], changed[two] = _with(terms[one], {here: there}), _with(terms[two], {there: here})
+            yield "arguments-exchanged", _sum(changed), here, there
+            for place, (mine, its) in enumerate(zip(here.args, there.args, strict=True)):
+                if len(here.args) > 1 and mine != its and mine.is_Symbol and its.is_Symbol:
+                    for number, part, argument in ((one, here, its), (two, there, mine)):
+                        twin = _with_argument(part, place, argument)
+                        other = _with(terms[number], {part: twin})
+                        yield "other-table", _sum([*terms[:number], other, *terms[number + 1 :]]), part, twin
+
+
+def _factors(term: Expr) -> Iterator[tuple[Expr, Expr]]:
+    """The letters that multiply a term, and the term without each; of a power the letter moves, and the power goes."""
+    for place, factor in enumerate(term.args if term.is_Mul else ()):
+        letter = factor.args[0] if factor.is_Pow else factor
+        if letter.is_Symbol and letter.is_commutative:
+            yield letter, _product(_others(term.args, place))
+
+
+def _is_plain(term: Expr) -> bool:
+    """Whether a term is added, and no bracket."""
+    return term.is_commutative and not any(factor.is_Add or factor.is_Number for factor in Mul.make_args(term))
+
+
+def _quantities(term: Expr) -> list[Quantity]:
+    """The quantities that a term is the product of."""
+    return [factor for factor in Mul.make_args(term) if isinstance(factor, Quantity)]
 
 
 def _power_of_sum(one: Expr, other: Expr) -> Expr | None:

@@ -13,6 +13,7 @@ from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bayes import BAYES, SQUARES
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_V, V_FROM_Q
 from rldrill.solutions.sheet.beyond_the_sheet import LINK_ORIGIN
+from rldrill.solutions.sheet.control import DOUBLE_Q_LEARNING
 from rldrill.solutions.sheet.fundamentals import GEOMETRIC_SERIES
 from rldrill.solutions.sheet.policy_gradient import SCORE_FUNCTION
 from rldrill.solutions.sheet.temporal_difference import N_STEP_RETURN, TD_ZERO
@@ -39,6 +40,8 @@ def written(formula) -> dict[str, set[str]]:
         ("complement", "V(sₜ) + (1 − α)·(rₜ₊₁ + γV(sₜ₊₁) − V(sₜ))"),
         ("bracket", "V(sₜ) + α(rₜ₊₁ + γV(sₜ₊₁)) − V(sₜ)"),
         ("exchanged", "V(sₜ) + γ(rₜ₊₁ + αV(sₜ₊₁) − V(sₜ))"),
+        ("arguments-exchanged", "V(sₜ) + α(rₜ₊₁ + γV(sₜ) − V(sₜ₊₁))"),
+        ("factor-moved", "V(sₜ) + α(γrₜ₊₁ + V(sₜ₊₁) − V(sₜ))"),
     ],
 )
 def test_an_update_is_edited_as_a_student_errs(kind: str, line: str) -> None:
@@ -49,6 +52,18 @@ def test_a_bracket_begins_too_early_behind_a_factor_and_never_behind_a_minus_alo
     brackets = written(TD_ZERO)["bracket"]
     assert "V(sₜ) + α(−V(sₜ) + γ(rₜ₊₁ + V(sₜ₊₁)))" in brackets
     assert not any("−(" in line for line in brackets)
+
+
+def test_a_discount_that_stands_at_the_wrong_term_stands_before_the_whole_sum_of_rewards() -> None:
+    assert written(N_STEP_RETURN)["factor-moved"] == {"γ Σᵢ₌₀ⁿ⁻¹ γⁱrₜ₊₁₊ᵢ + V(sₜ₊ₙ)"}
+    assert "factor-moved" not in written(SQUARES)  # a bracket is no term
+
+
+def test_of_two_tables_the_other_one_is_read() -> None:
+    assert written(DOUBLE_Q_LEARNING)["other-table"] == {
+        "Qᵢ(sₜ, aₜ) + α(rₜ₊₁ + γQⱼ(sₜ₊₁, aₜ₊₁*) − Qⱼ(sₜ, aₜ))",
+        "Qᵢ(sₜ, aₜ) + α(rₜ₊₁ + γQᵢ(sₜ₊₁, aₜ₊₁*) − Qᵢ(sₜ, aₜ))",
+    }
 
 
 def test_a_quotient_is_turned_upside_down() -> None:

@@ -79,6 +79,81 @@ def test_the_order_of_measurements_is_denied_by_the_belief_after_the_first() -> 
     assert "order" not in said
 
 
+#: μ̄ = 2 − 2 = 0, Σ̄ = 7 + 5 = 12, K = 12/18, μ = 2/3·7 = 14/3, Σ = 1/3·12 = 4.
+ONE_STEP = {
+    "family": "kalman-filter",
+    "given": {
+        "mean": [[2]],
+        "covariance": [[7]],
+        "process": [[5]],
+        "sensor": [[6]],
+        "steps": [{"u": [[-2]], "z": [[7]]}],
+    },
+}
+
+
+def test_who_does_not_go_on_from_a_right_answer_is_told_so_and_what_gives_the_number() -> None:
+    # With Σ₀ in the place of Σ̄: K = 7/13, μ = 7/13·7 = 49/13 and Σ = 6/13·7 = 42/13.
+    exercise = rldrill.read(ONE_STEP)
+    noise = "Every motion adds the variance of its own noise to the belief."
+    assert exercise.check("49/13, 42/13", "b").says == noise
+    diagnosis = exercise.diagnose("49/13, 42/13", "b", {"a": "0, 12"})
+    assert diagnosis.sentence == f"This does not seem to go on from your answer to (a), which is right. {noise}"
+    assert diagnosis.mistake is not None
+
+
+#: The best of all paths is rim, slope, floor, lander: 1 + 4 − 1 = 4; through cave rim, slope, cave: 1 + 6 − 4 = 3.
+WAYS = {
+    "family": "principle-of-optimality",
+    "given": {
+        "edges": [
+            ["rim", "slope", 1], ["rim", "floor", 3], ["rim", "cave", 6], ["slope", "floor", 4], ["slope", "cave", 6],
+            ["floor", "cave", 2], ["floor", "lander", -1], ["cave", "lander", -4],
+        ],
+        "start": "rim",
+        "goal": "lander",
+        "through": "cave",
+    },
+}  # fmt: skip
+
+
+def test_a_mistake_that_fits_no_wrong_answer_before_is_not_told_as_typical() -> None:
+    # With the rewards of rim → floor and rim → cave exchanged V*(rim) = 6 − 1 = 5, and 6 + 2 − 4 = 4 through cave.
+    exercise = rldrill.read(WAYS)
+    before = "5, 3, -1, -4"
+    assert exercise.check("4", "c").says.startswith("That is the best path of all")
+    assert exercise.grade({"a": "4, 3, -1, -4", "c": "4"})["c"].outcome is Outcome.MISCONCEPTION
+    assert exercise.grade({"a": before, "c": "4"})["c"].outcome is Outcome.WRONG
+    said = exercise.diagnose("4", "c", {"a": before}).sentence
+    assert said == "It looks as if two entries are exchanged: reward of the second and the third of the edges."
+
+
+def test_no_mistake_is_to_blame_where_nothing_follows_from_an_answer_before() -> None:
+    # x = 2·20/5 = 8. From x = 1/2, which is no number of times, 1/2 : 5/2 = 1/5 follows all the same.
+    rows = [["study", "kitchen", "hall", 5], ["study", "kitchen", "study", 20], ["study", "hall", "hall", 18],
+            ["study", "hall", "study", 12], ["bath", "kitchen", "hall", 2], ["bath", "kitchen", "study", "x"],
+            ["bath", "hall", "hall", 24], ["bath", "hall", "study", 16]]  # fmt: skip
+    exercise = rldrill.read({"family": "markov-property", "given": {"table": rows, "asked": "study"}})
+    graded = exercise.grade({"a": "1/2", "b": "4/5, 2/5, 1/5, 2/5"})
+    assert graded["b"].outcome is not Outcome.MISCONCEPTION
+
+
+def test_who_goes_on_from_the_prior_is_told_of_no_table() -> None:
+    # After x 3/16 to 3/16; with y alone 1/4·1/8 to 3/4·1/2 and so 1/13.
+    given = {
+        "prior": {"sound": "1/4", "worn": "3/4"},
+        "likelihood": {
+            "x": {"sound": "3/4", "worn": "1/4"},
+            "y": {"sound": "1/8", "worn": "1/2"},
+            "z": {"sound": "1/8", "worn": "1/4"},
+        },
+        "measurements": ["x", "y"],
+    }
+    exercise = rldrill.read({"family": "bayes-rule", "given": given})
+    said = exercise.diagnose("1/13, 12/13", "b", {"a": "1/2, 1/2"}).sentence
+    assert said.startswith("It looks as if every step goes on from what there was at the start")
+
+
 def test_what_gives_the_wrong_answer_before_as_well_is_told_again() -> None:
     # floor ← −4 + 1/4·(9 + 3/4·x + 4), then rim from there, then floor ← 3/4·floor + 2, which is 2: floor was 0, x = 4.
     # With 9 + 3/4·x − 4 in the first bracket x = 44/3, and rim ← 44/3 + 1/4·(6 + 0 − 44/3) = 25/2.
