@@ -1,7 +1,8 @@
 """Softmax policies as solvers need them: probabilities, scores, returns; and their gradient by other means."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from functools import partial
+from typing import Any, TypeAlias
 
 import sympy
 from sympy import Expr
@@ -71,23 +72,37 @@ def _power(times: Expr) -> str:
     return "" if times == 1 else f"^{times}"
 
 
+#: The probability of every action in a state, by the action and the state, from what is known.
+Chances: TypeAlias = Callable[[Work, Mapping[str, Any], str, Sequence[str]], dict[tuple[str, str], Value]]
+
+
 def chances(work: Work, known: Mapping[str, Any], state: str, actions: Sequence[str]) -> dict[tuple[str, str], Value]:
     """Work out the probability of every action in a state, from the preferences."""
+    return _shared_out(work, _preferred(work, known, state, actions))
+
+
+def _preferred(work: Work, known: Mapping[str, Any], state: str, actions: Sequence[str]) -> dict[str, Any]:
     bound = {**known, "s": state, "choices": tuple(actions)}
-    bound["H"] = {(state, action): work.step(PREFERENCE, a=action, **bound) for action in actions}
-    if work.misconception is not None and work.misconception.name == _ADDED:
-        bound["H"] = {pair: _logarithm_of_the_sum(bound, pair) for pair in bound["H"]}
+    return bound | {"H": {(state, action): work.step(PREFERENCE, a=action, **bound) for action in actions}}
+
+
+def _shared_out(work: Work, bound: Mapping[str, Any]) -> dict[tuple[str, str], Value]:
     tell_exponentials(work, bound["H"].values())
-    return {(action, state): simplest(work.step(SOFTMAX_POLICY, a=action, **bound)) for action in actions}
+    return {(a, s): simplest(work.step(SOFTMAX_POLICY, a=a, **bound)) for s, a in bound["H"]}
 
 
-#: The name of the slip of whoever takes e to the power of a sum for the sum of the powers.
-_ADDED = "exponentials-added"
+def _chances_by_sums(
+    work: Work, known: Mapping[str, Any], state: str, actions: Sequence[str]
+) -> dict[tuple[str, str], Value]:
+    """The same by somebody who adds up the exponentials of a preference's terms."""
+    bound = _preferred(work, known, state, actions)
+    return _shared_out(work, bound | {"H": {pair: _logarithm_of_the_sum(bound, pair) for pair in bound["H"]}})
 
 
-def exponentials_added(solve: Callable[[Any, Work], None]) -> Misconception:
-    """The slip of a solver with a softmax policy that adds the exponentials of a preference's terms up."""
-    made = slip(_ADDED, "e to the power of a sum is a product: exp(x + y) = exp(x) exp(y).", when=_has_sums)(solve)
+def exponentials_added(solve: Callable[..., None]) -> Misconception:
+    """The slip of a solver, told how it gets its policy, that adds the exponentials of a preference's terms up."""
+    says = "e to the power of a sum is a product: exp(x + y) = exp(x) exp(y)."
+    made = slip("exponentials-added", says, when=_has_sums)(partial(solve, policy=_chances_by_sums))
     return made.where_it_shows()
 
 

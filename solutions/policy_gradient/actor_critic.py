@@ -20,13 +20,13 @@ from rldrill.solutions.sheet.policy_gradient import (
     TD_ERROR,
     WEIGHTED_BY_REWARD,
 )
-from rldrill.solutions.softmax import by_number, chances, exponentials_added, known_run, log_gradient, score
+from rldrill.solutions.softmax import Chances, by_number, chances, exponentials_added, known_run, log_gradient, score
 from rldrill.solutions.work import Equality, Work
 
 
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, policy: Chances = chances) -> None:
     """The critic sees values only, so its whole way comes first; then the actor's, with the errors found."""
-    _act(given, work, _criticise(given, work))
+    _act(given, work, _criticise(given, work), policy)
 
 
 def _criticise(given: Given, work: Work) -> dict[str, Any]:
@@ -48,12 +48,12 @@ def _criticise(given: Given, work: Work) -> dict[str, Any]:
     return known
 
 
-def _act(given: Given, work: Work, known: dict[str, Any]) -> None:
+def _act(given: Given, work: Work, known: dict[str, Any], policy: Chances = chances) -> None:
     """The actor's weights, transition by transition."""
     run = given.trajectory
     for time, (state, action) in enumerate(zip(run.states, run.actions, strict=False)):
         actions = tuple(given.features[state])
-        known["pi"] = chances(work, known, state, actions)
+        known["pi"] = policy(work, known, state, actions)
         known["score"] = {(action, state): score(work, known, state, action, actions)}
         known |= by_number(tuple(work.step(ACTOR_CRITIC, t=time, **known)))
     work.answer(tuple(known["theta_vector"]))

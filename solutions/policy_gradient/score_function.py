@@ -18,11 +18,19 @@ from rldrill.solutions.sheet.policy_gradient import (
     LOG_FORGOTTEN,
     OTHER_SUBTRACTED,
 )
-from rldrill.solutions.softmax import action_features, by_number, chances, exponentials_added, log_gradient, score
+from rldrill.solutions.softmax import (
+    Chances,
+    action_features,
+    by_number,
+    chances,
+    exponentials_added,
+    log_gradient,
+    score,
+)
 from rldrill.solutions.work import Equality, Work
 
 
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, policy: Chances = chances) -> None:
     """One state, written s."""
     actions = tuple(given.features)
     known = action_features({"s": given.features})
@@ -33,7 +41,7 @@ def solve(given: Given, work: Work) -> None:
         probabilities = knowns.values(given.policy or {})
     else:
         known |= by_number([exact(weight) for weight in given.theta])
-        worked_out = chances(work, known, "s", actions)
+        worked_out = policy(work, known, "s", actions)
         probabilities = work.answer({action: worked_out[action, "s"] for action in actions})
     known["pi"] = {(action, "s"): chance for action, chance in probabilities.items()}
     for action in given.asked:
