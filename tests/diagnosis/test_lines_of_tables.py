@@ -90,11 +90,10 @@ def test_an_episode_is_counted_twice() -> None:
 
 
 def test_two_causes_at_once_are_told_only_where_that_is_sure() -> None:
-    # J = [√2/2 √2; −3√2/2 −√2] has the determinant 2. Its inverse with neither minus beside the diagonal turned gives
-    # 1/2·(−√2·8 + √2·(−12)) = −10√2 and 1/2·(−3√2/2·8 + √2/2·(−12)) = −9√2: one error, and not two.
-    given = {"lengths": [1, 2], "angles": ["3*pi/4", "pi/2"], "velocity": [8, -12]}
-    exercise = rldrill.read({"family": "jacobian", "given": given})
-    assert not exercise.diagnose("-10√2, -9√2", "b").explains
+    # φ₁ = exp(−1/(2·3²)) and φ₂ = exp(−3²/(2·3²)), with 1 added to both: one error, and not two slips of arithmetic.
+    given = {"position": [6], "centres": [[5], [3]], "sigma": 3}
+    exercise = rldrill.read({"family": "rbf", "given": given})
+    assert not exercise.diagnose("1 + exp(-1/18), 1 + exp(-1/2)").explains
 
 
 def test_whole_lines_that_are_exchanged_change_nothing_and_are_not_tried() -> None:
