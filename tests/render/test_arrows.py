@@ -63,7 +63,7 @@ def heads_and_shapes(diagram: StateDiagram) -> tuple[list[Path], dict[str, Ellip
 
 @pytest.mark.parametrize("shape", [(2, 2, 2), (3, 1, 2), (3, 2, 2), (4, 2, 1)])
 def test_every_head_ends_on_the_edge_of_its_state_and_nothing_lies_over_it(shape: tuple[int, int, int]) -> None:
-    for seed in range(12):
+    for seed in range(6):
         rng = Draws(f"arrows {seed}")
         diagram = state_diagram(draw_model(rng, draw_setting(rng), Shape(*shape)))
         heads, named = heads_and_shapes(diagram)
