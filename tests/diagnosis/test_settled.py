@@ -61,18 +61,20 @@ def test_a_slip_in_an_earlier_part_is_denied_by_its_right_answer() -> None:
     assert slip not in exercise.diagnose("23/4", "b", {"a": "8, 5"}).sentence
 
 
+MEASURED = {
+    "likelihood": {
+        "x": {"sound": "3/4", "worn": "1/4"},
+        "y": {"sound": "1/8", "worn": "1/2"},
+        "z": {"sound": "1/8", "worn": "1/4"},
+    },
+    "measurements": ["x", "y"],
+}
+
+
 def test_the_order_of_measurements_is_denied_by_the_belief_after_the_first() -> None:
     # After x 3 to 1, after y 3/4·1/8 to 1/4·1/2, so 3/7; with x once more it is 9 to 1, as with "x, y" read as "y, x"
     # by somebody who goes on from 3 to 1.
-    given = {
-        "prior": {"sound": "1/2", "worn": "1/2"},
-        "likelihood": {
-            "x": {"sound": "3/4", "worn": "1/4"},
-            "y": {"sound": "1/8", "worn": "1/2"},
-            "z": {"sound": "1/8", "worn": "1/4"},
-        },
-        "measurements": ["x", "y"],
-    }
+    given = {"prior": {"sound": "1/2", "worn": "1/2"}, **MEASURED}
     exercise = rldrill.read({"family": "bayes-rule", "given": given})
     said = exercise.diagnose("9/10, 1/10", "b", {"a": "3/4, 1/4"}).sentence
     assert "the second of the measurements is taken over from the one before" in said
@@ -140,15 +142,7 @@ def test_no_mistake_is_to_blame_where_nothing_follows_from_an_answer_before() ->
 
 def test_who_goes_on_from_the_prior_is_told_of_no_table() -> None:
     # After x 3/16 to 3/16; with y alone 1/4·1/8 to 3/4·1/2 and so 1/13.
-    given = {
-        "prior": {"sound": "1/4", "worn": "3/4"},
-        "likelihood": {
-            "x": {"sound": "3/4", "worn": "1/4"},
-            "y": {"sound": "1/8", "worn": "1/2"},
-            "z": {"sound": "1/8", "worn": "1/4"},
-        },
-        "measurements": ["x", "y"],
-    }
+    given = {"prior": {"sound": "1/4", "worn": "3/4"}, **MEASURED}
     exercise = rldrill.read({"family": "bayes-rule", "given": given})
     said = exercise.diagnose("1/13, 12/13", "b", {"a": "1/2, 1/2"}).sentence
     assert said.startswith("It looks as if every step goes on from what there was at the start")
