@@ -130,6 +130,6 @@ def _worth(part: Expr) -> Expr | None:
     symbolic = getattr(part, "symbolic", part.func)
     try:
         worth = symbolic(*worths)
-    except (*UNDONE, NotImplementedError):
+    except ValueError:  # of an own number the logarithm need not be real, and then there is no greatest
         return None
     return worth if isinstance(worth, Expr) and worth.is_finite is not False else None

@@ -1,8 +1,12 @@
 """Lines as students write them: each right one is right, or passed over, and each wrong result is found."""
 
 import pytest
+from flint import fmpq
+from sympy import log
 
 import rldrill
+from rldrill.solutions.diagnosis.on_the_way import places
+from rldrill.solutions.formula.notation import Greatest, gamma
 
 # cave: 8 + 1/2·(8 + 1/2·8 − 8) = 10, by the target 8 + 4 = 12 and the error 12 − 8 = 4.
 UPDATE = rldrill.read(
@@ -228,3 +232,10 @@ def test_nothing_is_said_twice(family: str) -> None:
         for wrong in exercise.diagnosing.wrong_answers(part.label, 6):
             said = exercise.follow([wrong.answer]).sentence.rstrip(".").partition("it looks as if ")[2].split(", or ")
             assert len(said) == len(set(said))
+
+
+def test_of_what_is_not_real_there_is_no_greatest_and_the_rest_is_on_the_way() -> None:
+    # With a γ of −1/2 of one's own ln γ is iπ − ln 2.
+    found = [str(place.worth) for place in places(Greatest(log(gamma), gamma), {"gamma": fmpq(-1, 2)})]
+    assert "-log(2) + I*pi" in found
+    assert not any("Max" in worth for worth in found)
