@@ -27,33 +27,39 @@ from rldrill.solutions.sheet.dynamic_programming import (
 from rldrill.solutions.work import Work
 
 
-def solve(given: Given, work: Work, *, stays: bool = False) -> None:
-    """The value that is missing, the values of the actions, the best action of every state.
-
-    If a state ``stays`` its value does where it leads to the end, as if it were not left.
-    """
+def solve(given: Given, work: Work) -> None:
+    """The value that is missing, the values of the actions, the best action of every state."""
     V = knowns.state_values(given.values, given.mdp.terminal)
-    known = knowns.model(given.mdp) | {"gamma": exact(given.gamma)}
     found: dict[tuple[str, str], Value] = {}
     if given.missing is not None:
-        value, found = _missing(given, given.missing, work, known | {"V": V})
+        value, found = _missing(given, given.missing, work, _known(given) | {"V": V})
         V[given.missing] = work.answer(value)
         if V[given.missing] != value:  # whoever has another value goes on with it
             found = {}
-    known |= {"V": V}
+    _look_ahead(given, work, dict.fromkeys(given.mdp.states, V), found)
 
-    def ahead_of(state: str) -> dict[str, Any]:
-        return known | {"V": V | dict.fromkeys(given.mdp.terminal, V[state])} if stays else known
 
+def _known(given: Given) -> dict[str, Any]:
+    return knowns.model(given.mdp) | {"gamma": exact(given.gamma)}
+
+
+def _look_ahead(
+    given: Given,
+    work: Work,
+    ahead_of: Mapping[str, Mapping[str, Value]],
+    found: Mapping[tuple[str, str], Value],
+) -> None:
+    """The best actions, by the values that are ahead of each state; some values of actions may be found already."""
+    known = _known(given)
     if given.action_values:
         if found:
             work.say(f"The values of the actions in {given.missing} are those of part (a).")
         pairs = [pair for pair in given.mdp.pairs if pair not in found]
-        rest = {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **ahead_of(s)) for s, a in pairs}
-        Q = work.answer({pair: (found | rest)[pair] for pair in given.mdp.pairs})
+        rest = {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=ahead_of[s], **known) for s, a in pairs}
+        Q = work.answer({pair: {**found, **rest}[pair] for pair in given.mdp.pairs})
         greedy = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, **known) for state in given.mdp.states}
     else:
-        greedy = {state: work.step(GREEDY_FROM_V, s=state, **ahead_of(state)) for state in given.mdp.states}
+        greedy = {s: work.step(GREEDY_FROM_V, s=s, V=ahead_of[s], **known) for s in given.mdp.states}
     if given.gamma == 1:
         best = optimum(given.mdp, given.gamma)
         if given.missing is None:
@@ -117,7 +123,9 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tup
 )
 def value_kept(given: Given, work: Work) -> None:
     """A state's own value where the end is next."""
-    solve(given, work, stays=True)
+    V = knowns.state_values(given.values, given.mdp.terminal)
+    kept = {state: V | dict.fromkeys(given.mdp.terminal, V[state]) for state in given.mdp.states}
+    _look_ahead(given, work, kept, {})
 
 
 MISCONCEPTIONS = (

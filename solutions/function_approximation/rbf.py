@@ -19,10 +19,11 @@ from rldrill.solutions.sheet.function_approximation import (
     WIDTH_FROM_RBF,
     logarithm_of_rbf,
 )
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
 
-def solve(given: Given, work: Work, *, normalised: bool = False) -> None:
+def solve(given: Given, work: Work) -> None:
     """What is missing first, then centre by centre, then the weighted sum."""
     logarithms = knowns.values(given.logarithms)
     known: dict[str, Any] = {"s": "s", "log_phi": {(number, "s"): value for number, value in logarithms.items()}}
@@ -39,8 +40,6 @@ def solve(given: Given, work: Work, *, normalised: bool = False) -> None:
         known["sigma"] = work.answer(sigma)
     known |= distances(given, work, state, of=others)
     values = tuple(work.step(RBF, i=number, **known) for number in others)
-    if normalised:
-        values = tuple(simplest(to_sympy(value) / sum(map(to_sympy, values))) for value in values)
     if values:
         values = work.answer(values)
     if given.theta:
@@ -65,7 +64,10 @@ def _solved(
 )
 def divided_by_their_sum(given: Given, work: Work) -> None:
     """Features that sum to 1."""
-    solve(given, work, normalised=True)
+    features = tuple(map(to_sympy, right_answers(solve, given, work)[0]))
+    values = work.answer(tuple(simplest(feature / sum(features)) for feature in features))
+    if given.theta:
+        value_of_state(work, given.theta, values)
 
 
 MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED, divided_by_their_sum.where_it_shows())

@@ -12,10 +12,11 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, MAX_MARGIN_BOUND, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
 
-def solve(given: Given, work: Work, *, divided: bool = True) -> None:
+def solve(given: Given, work: Work) -> None:
     """Values; then constraint by constraint with a slack; then the slack that is needed."""
     mus = {EXPERT: given.expert} | {name: rival.mu for name, rival in given.policies.items()}
     known: dict[str, Any] = {
@@ -26,7 +27,7 @@ def solve(given: Given, work: Work, *, divided: bool = True) -> None:
     worth = {name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus}
     margins = {EXPERT: ZERO} | {name: exact(rival.margin) for name, rival in given.policies.items()}
     if given.asked_for:
-        _balance(given, work, given.asked_for, worth, margins, divided=divided)
+        _balance(given, work, given.asked_for, worth, margins)
         return
     worth = dict(zip(worth, work.answer(tuple(worth.values())), strict=True))
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
@@ -56,9 +57,7 @@ def _counted(holding: int, count: int) -> str:
     return f"{holding or 'none'} of the {count} constraints {'hold' if holding > 1 else 'holds'}"
 
 
-def _balance(
-    given: Given, work: Work, letter: str, worth: dict[str, Any], margins: dict[str, Any], *, divided: bool
-) -> None:
+def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margins: dict[str, Any]) -> None:
     """The open weight at which each constraint holds with equality; the greatest of these is enough for all."""
     work.recall(MAX_MARGIN)
     work.say("With $ξ = 0$ the right side of each constraint is:")
@@ -67,8 +66,6 @@ def _balance(
         right = work.step(MAX_MARGIN_BOUND, policy=name, worth=worth, margin=margins, xi=ZERO)
         work.say("Both sides are equal for:")
         least[name] = work.equate(letter, worth[EXPERT], right)
-        if not divided:
-            least[name] *= exact(given.expert[place]) - exact(given.policies[name].mu[place])
     least = work.answer(least)
     enough = largest(tuple(least.values()))
     open_ = shown(Parameter(letter))
@@ -117,7 +114,11 @@ def margin_on_the_wrong_side(given: Given, work: Work) -> None:
 )
 def not_divided(given: Given, work: Work) -> None:
     """The open weight times what stands before it."""
-    solve(given, work, divided=False)
+    least, _ = right_answers(solve, given, work)
+    place = given.w.index(given.asked_for)
+    before = {name: exact(given.expert[place]) - exact(rival.mu[place]) for name, rival in given.policies.items()}
+    least = work.answer({name: least[name] * factor for name, factor in before.items()})
+    work.answer(largest(tuple(least.values())))
 
 
 MISCONCEPTIONS = (margin_on_the_wrong_side, SUM_FOR_MAXIMUM, not_divided.where_it_shows())

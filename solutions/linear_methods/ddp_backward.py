@@ -34,7 +34,7 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work) -> None:
     """The quadratic Q, then k and K, if it has a maximum."""
-    Q = _expanded(given, work)
+    Q = _expanded(given, work, _second)
     if not _is_negative(Q["Q_aa"]):
         raise NoSolution("Q has no greatest value in a, since Q_aa is not negative")
     _maximum(given, work, Q)
@@ -74,11 +74,8 @@ def _applied(given: Given, work: Work, formula: Formula, known: Mapping[str, Any
     return matrices.matrix([[work.step(formula, **numbers)]])
 
 
-def _expanded(given: Given, work: Work, *, halved: bool = False) -> dict[str, AnyMatrix]:
-    """First derivatives, then second derivatives: of the reward, of the dynamics, and from them of Q.
-
-    With ``halved`` the 2 in the second derivative of a square is lost.
-    """
+def _expanded(given: Given, work: Work, curved: Callable[..., AnyMatrix]) -> dict[str, AnyMatrix]:
+    """First derivatives, then second derivatives: of the reward, by ``curved``, of the dynamics, and from them of Q."""
     names, actions = given.states, tuple(given.action)
     known: dict[str, Any] = {
         "V_s": matrices.column(map(exact, given.gradient)),
@@ -121,8 +118,7 @@ def _expanded(given: Given, work: Work, *, halved: bool = False) -> dict[str, An
         ("aa", formulas.aa, actions, actions),
     ):
         of_r, of_f = (derivative_of(head, code) for head in "rf") if scalar else (reward_second(), SECOND_DERIVATIVE)
-        bent = _second(work, of_r, values, given.reward, "r", rows, columns)
-        known[f"r_{code}"] = _halved(given, bent, rows, columns) if halved else bent
+        known[f"r_{code}"] = curved(work, of_r, values, given.reward, "r", rows, columns)
         known[f"fi{code}"] = {
             number: _second(work, of_f, values, text, index, rows, columns)
             for number, (index, text) in enumerate(texts.items(), 1)
@@ -167,20 +163,6 @@ def _second(
     return matrices.matrix([found[frozenset((first, then))] for then in columns] for first in rows)
 
 
-def _halved(given: Given, bent: AnyMatrix, rows: tuple[str, ...], columns: tuple[str, ...]) -> AnyMatrix:
-    """Second derivatives in which a square leaves no 2 behind: those that are the same everywhere."""
-    moving = {dynamics.symbol(name) for name in (*given.states, *given.action)}
-
-    def of_square(first: str, then: str) -> bool:
-        return first == then and not dynamics.second(given.reward, first, then).free_symbols & moving
-
-    lines = zip(rows, bent.tolist(), strict=True)
-    return matrices.matrix(
-        [entry / 2 if of_square(first, then) else entry for then, entry in zip(columns, line, strict=True)]
-        for first, line in lines
-    )
-
-
 def _second_of(of: str) -> Callable[..., Any]:
     """The second derivatives of something that has a name, by the last two of their indices."""
     return lambda *by: second(put_in_name(of), *by[-2:])
@@ -200,7 +182,8 @@ def _is_negative(matrix: AnyMatrix) -> bool:
 
 def other_method(given: Given, work: Work) -> None:
     """DDP for iLQR, iLQR for DDP; whatever Q is then, the formulas give a k and a K."""
-    _maximum(given, work, _expanded(given.model_copy(update={"second_order": not given.second_order}), work))
+    other = given.model_copy(update={"second_order": not given.second_order})
+    _maximum(given, work, _expanded(other, work, _second))
 
 
 ILQR_FOR_DDP = slip(
@@ -221,8 +204,20 @@ DDP_FOR_ILQR = slip(
     "The second derivative of c x² is 2c: differentiating the square brings the 2 down, and it stays.",
 )
 def two_lost(given: Given, work: Work) -> None:
-    """The reward's second derivatives without the 2 of its squares."""
-    _maximum(given, work, _expanded(given, work, halved=True))
+    """The reward's second derivatives without the 2 of its squares: of those that are the same everywhere."""
+    moving = {dynamics.symbol(name) for name in (*given.states, *given.action)}
+
+    def of_square(first: str, then: str) -> bool:
+        return first == then and not dynamics.second(given.reward, first, then).free_symbols & moving
+
+    def curved(*arguments: Any) -> AnyMatrix:
+        *_, rows, columns = arguments
+        return matrices.matrix(
+            [entry / 2 if of_square(first, then) else entry for then, entry in zip(columns, line, strict=True)]
+            for first, line in zip(rows, _second(*arguments).tolist(), strict=True)
+        )
+
+    _maximum(given, work, _expanded(given, work, curved))
 
 
 MISCONCEPTIONS = (

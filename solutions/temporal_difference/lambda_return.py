@@ -27,13 +27,13 @@ from rldrill.solutions.temporal_difference.n_step_return import n_step, worth_as
 from rldrill.solutions.work import Work
 
 
-def solve(given: Given, work: Work, *, paid: bool = False) -> None:
-    """First what is averaged, then the average; an end that is ``paid`` is worth what the state before it is."""
+def solve(given: Given, work: Work) -> None:
+    """First what is averaged, then the average."""
     known = known_episode(given)
-    returns = averaged(work, known, given.time)
-    if paid:
-        last = n_step(work, worth_as_before(given.trajectory, known), given.time, known["T"] - given.time)
-        returns = (*returns[:-1], last)
+    _weighted(given, work, known, averaged(work, known, given.time))
+
+
+def _weighted(given: Given, work: Work, known: Mapping[str, Any], returns: tuple[Value, ...]) -> None:
     if given.in_parts:
         returns = work.answer(returns)
     work.say(f"The {'episode' if known['ends'] else 'run'} ends at $T = {known['T']}$.")
@@ -91,7 +91,10 @@ def average(work: Work, known: Mapping[str, Any], time: int, returns: Sequence[V
 )
 def value_after_the_end(given: Given, work: Work) -> None:
     """The end as if it were worth what the state before it is."""
-    solve(given, work, paid=True)
+    known = known_episode(given)
+    *returns, _ = averaged(work, known, given.time)
+    last = n_step(work, worth_as_before(given.trajectory, known), given.time, known["T"] - given.time)
+    _weighted(given, work, known, (*returns, last))
 
 
 MISCONCEPTIONS = (

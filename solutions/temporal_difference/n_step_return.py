@@ -1,7 +1,7 @@
 """The n-step returns asked for, each from its formula."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 from rldrill.problems.exact import Scalar
 from rldrill.problems.fractions import Fraction
@@ -25,17 +25,18 @@ from rldrill.solutions.sheet.temporal_difference import (
 )
 from rldrill.solutions.work import Work
 
+#: How a number of the problem is read: as it is, or with what was found for a letter.
+Reading: TypeAlias = Callable[[Scalar], Value]
 
-def solve(given: Given, work: Work, *, paid: bool = False) -> None:
-    """One application for every part; where the first return is known, what was left open comes before the others.
 
-    An end that is ``paid`` is worth what the state before it is, and longer returns than to the end are those to it.
-    """
-    read: Callable[[Scalar], Value] = exact
-    known_from = _known_paid if paid else _known
+def solve(given: Given, work: Work) -> None:
+    """One application for every part; where the first return is known, what was left open comes before the others."""
+    _returns(given, work, _known)
+
+
+def _returns(given: Given, work: Work, known_from: Callable[[Given, Reading], dict[str, Any]]) -> None:
+    read: Reading = exact
     asked, end = given.asked, len(given.trajectory.rewards)
-    if paid:
-        asked = tuple((time, min(steps, end - time)) for time, steps in asked)
     if given.known is not None:
         time, steps = asked[0]
         first = n_step(work, known_from(given, exact), time, steps)
@@ -48,7 +49,7 @@ def solve(given: Given, work: Work, *, paid: bool = False) -> None:
         work.answer(n_step(work, known, time, steps))
 
 
-def _known(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
+def _known(given: Given, read: Reading) -> dict[str, Any]:
     run, gamma = given.trajectory, given.gamma
     known = knowns.trajectory(run)
     if isinstance(gamma, tuple):
@@ -81,12 +82,11 @@ def n_step(work: Work, known: Mapping[str, Any], time: int, steps: int) -> Value
     when=lambda given: given.trajectory.ends and max(map(sum, given.asked)) >= len(given.trajectory.rewards),
 )
 def value_after_the_end(given: Given, work: Work) -> None:
-    """The end as if it were worth what the state before it is."""
-    solve(given, work, paid=True)
-
-
-def _known_paid(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
-    return worth_as_before(given.trajectory, _known(given, read))
+    """The end as if it were worth what the state before it is; longer returns than to the end are those to it."""
+    end = len(given.trajectory.rewards)
+    asked = tuple((time, min(steps, end - time)) for time, steps in given.asked)
+    to_the_end = given.model_copy(update={"asked": asked})
+    _returns(to_the_end, work, lambda given, read: worth_as_before(given.trajectory, _known(given, read)))
 
 
 def worth_as_before(run: Trajectory, known: Mapping[str, Any]) -> dict[str, Any]:
