@@ -1,6 +1,6 @@
 """The value of a letter from what comes out: exactly from an equation, independently from trials."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from rldrill.problems.exact import Parameter, Scalar, needed, shown
@@ -64,12 +64,9 @@ def _replaced(data: Any, letter: str, number: str) -> Any:
     return number if data == letter else data
 
 
-def find_and_finish(
-    given: ValueRun, work: Work, updated: Callable[[Callable[[Scalar], Value]], dict[str, Value]]
-) -> None:
-    """Answer with the letter, from the value that is known after all updates, and with the other values."""
+def find_and_finish(given: ValueRun, work: Work, after: Mapping[str, Value]) -> None:
+    """Answer with the letter, from the value that is known ``after`` all updates, and with the other values."""
     first, *others = given.updated
-    after = updated(exact)
     letter = find(given, work, after[first], f'V("{first}")')
     if others:
         sign = shown(Parameter(given.letter))

@@ -1,9 +1,8 @@
 """The λ-return as its definition has it: all n-step returns, weighted."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from rldrill.problems.exact import Scalar
 from rldrill.problems.runs import Trajectory, per_step
 from rldrill.problems.temporal_difference.lambda_return import Given
 from rldrill.solutions import knowns
@@ -44,15 +43,15 @@ def _weighted(given: Given, work: Work, known: Mapping[str, Any], returns: tuple
         find(given, work, value, f"R_{{{given.time}}}^{{(λ)}}")
 
 
-def known_episode(given: Any, read: Callable[[Scalar], Value] = exact) -> dict[str, Any]:
+def known_episode(given: Any) -> dict[str, Any]:
     """A run with its values, γ, λ and the time of its end."""
     run: Trajectory = given.trajectory
     return (
         knowns.trajectory(run)
         | knowns.discounts(given.gamma)
         | {
-            "V": {s: read(value) for s, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO),
-            "lam": read(given.lam),
+            "V": {s: exact(value) for s, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO),
+            "lam": exact(given.lam),
             "T": len(run.rewards),
             "ends": run.ends,
         }

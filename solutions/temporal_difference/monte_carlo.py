@@ -1,6 +1,6 @@
 """Monte Carlo from one episode: the returns backwards in time, then an update for every visit that counts."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from rldrill.problems.exact import Scalar
@@ -35,9 +35,9 @@ def _finish(
     """
     times = _counted(given, work) if only is None else only
     if isinstance(given, OfStates) and given.known is not None:
-        find_and_finish(given, work, lambda read: _updated(given, work, returns, read, times, stale=stale))
+        find_and_finish(given, work, _updated(given, work, returns, times, stale=stale))
     elif isinstance(given, OfStates):
-        work.answer(_updated(given, work, returns, exact, times, stale=stale))
+        work.answer(_updated(given, work, returns, times, stale=stale))
     else:
         work.answer(_updated_pairs(given, work, returns, times, stale=stale))
 
@@ -72,19 +72,13 @@ def _updated_pairs(
 
 
 def _updated(
-    given: OfStates,
-    work: Work,
-    returns: tuple[Value, ...],
-    read: Callable[[Scalar], Value],
-    times: Iterable[int],
-    *,
-    stale: bool,
+    given: OfStates, work: Work, returns: tuple[Value, ...], times: Iterable[int], *, stale: bool
 ) -> dict[str, Value]:
     S = dict(enumerate(given.trajectory.states))
-    values = first = {state: read(value) for state, value in given.values.items()}
+    values = first = {state: exact(value) for state, value in given.values.items()}
     for time in times:
         now = first if stale else values
-        new = work.step(MONTE_CARLO, t=time, V=now, S=S, G=dict(enumerate(returns)), alpha=read(given.alpha))
+        new = work.step(MONTE_CARLO, t=time, V=now, S=S, G=dict(enumerate(returns)), alpha=exact(given.alpha))
         values = values | {S[time]: values[S[time]] + new - now[S[time]] if stale else new}
     return {state: values[state] for state in given.visited}
 

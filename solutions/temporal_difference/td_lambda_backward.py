@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.td_lambda_backward import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
@@ -78,22 +77,9 @@ def _learn(
 
     The TD errors read what ``seen`` makes of the values before the run and those of their time.
     """
-    if given.known is not None:
-        find_and_finish(given, work, lambda read: _learned(given, work, moving, seen, read))
-    else:
-        work.answer(_learned(given, work, moving, seen, exact))
-
-
-def _learned(
-    given: Given,
-    work: Work,
-    moving: Callable[[str, Traces, Traces], Traces],
-    seen: Callable[[Values, Values], Values],
-    read: Callable[[Scalar], Value],
-) -> dict[str, Value]:
     run = given.trajectory
-    known = knowns.trajectory(run) | {name: read(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
-    values = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
+    known = knowns.trajectory(run) | {name: exact(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
+    values = {state: exact(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
     start, traces = values, Traces()
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
     work.recall(TD_LAMBDA_BACKWARD)
@@ -106,7 +92,11 @@ def _learned(
         e = moving(state, before, traces)
         known["delta"] = {time: work.step(TD_ERROR, t=time, V=seen(start, values), **known)}
         values = values | {s: work.step(TD_LAMBDA_BY_ERROR, s=s, t=time, V=values, e=e, **known) for s in e}
-    return {state: values[state] for state in given.visited}
+    learned = {state: values[state] for state in given.visited}
+    if given.known is None:
+        work.answer(learned)
+    else:
+        find_and_finish(given, work, learned)
 
 
 def oracle(given: Given) -> Answers:

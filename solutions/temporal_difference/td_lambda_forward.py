@@ -1,8 +1,5 @@
 """TD(λ) in the forward view: a step towards the λ-return of every time asked for."""
 
-from collections.abc import Callable
-
-from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.td_lambda_forward import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import Answers, at
@@ -17,23 +14,23 @@ MISCONCEPTIONS = (FORGOT_ALPHA, NOT_SUBTRACTED, NOT_KEPT)
 def solve(given: Given, work: Work) -> None:
     """The λ-returns, then one update for each, all from the values before the run."""
     if given.known is not None:
-        find_and_finish(given, work, lambda read: _updated(given, work, read, _returns(given, work, read)))
+        find_and_finish(given, work, _updated(given, work, _returns(given, work)))
         return
-    returns = _returns(given, work, exact)
+    returns = _returns(given, work)
     single = len(returns) == 1
     carried = work.answer(returns[0] if single else returns)
-    work.answer(_updated(given, work, exact, (carried,) if single else carried))
+    work.answer(_updated(given, work, (carried,) if single else carried))
 
 
-def _returns(given: Given, work: Work, read: Callable[[Scalar], Value]) -> tuple[Value, ...]:
-    known = known_episode(given, read)
+def _returns(given: Given, work: Work) -> tuple[Value, ...]:
+    known = known_episode(given)
     work.say(f"The {'episode' if known['ends'] else 'run'} ends at $T = {known['T']}$.")
     return tuple(average(work, known, time, averaged(work, known, time)) for time in given.asked)
 
 
-def _updated(given: Given, work: Work, read: Callable[[Scalar], Value], returns: tuple[Value, ...]) -> dict[str, Value]:
-    known = known_episode(given, read) | {"Glam": dict(zip(given.asked, returns, strict=True))}
-    updates = (work.step(TD_LAMBDA, t=time, alpha=read(given.alpha), **known) for time in given.asked)
+def _updated(given: Given, work: Work, returns: tuple[Value, ...]) -> dict[str, Value]:
+    known = known_episode(given) | {"Glam": dict(zip(given.asked, returns, strict=True))}
+    updates = (work.step(TD_LAMBDA, t=time, alpha=exact(given.alpha), **known) for time in given.asked)
     return dict(zip(given.updated, updates, strict=True))
 
 

@@ -1,8 +1,5 @@
 """TD(0) along a run: each update with the values then current."""
 
-from collections.abc import Callable
-
-from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.td_zero import AlongRun, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
@@ -20,17 +17,8 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _learn(given: Given, work: Work, *, newest: bool = True) -> None:
-    if isinstance(given, AlongRun) and given.known is not None:
-        find_and_finish(given, work, lambda read: _updated(given, work, read, newest=newest))
-        return
-    values = _updated(given, work, exact, newest=newest)
-    work.answer({state: values[state] for state in given.visited})
-
-
-def _updated(given: Given, work: Work, read: Callable[[Scalar], Value], *, newest: bool) -> dict[str, Value]:
-    """The values after all updates; the TD errors are the first answer where they are asked for."""
-    before = values = {s: read(value) for s, value in given.values.items()} | dict.fromkeys(given.terminal, ZERO)
-    known = {"alpha": read(given.alpha), "gamma": read(given.gamma)}
+    before = values = {s: exact(value) for s, value in given.values.items()} | dict.fromkeys(given.terminal, ZERO)
+    known = {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
     errors: list[Value] = []
     for seen in knowns.moves(given):
         current = values if newest else before
@@ -42,7 +30,10 @@ def _updated(given: Given, work: Work, read: Callable[[Scalar], Value], *, newes
     if given.td_errors:
         work.answer(tuple(errors) if len(errors) > 1 else errors[0])
         work.say("The updates above give these values.")
-    return values
+    if isinstance(given, AlongRun) and given.known is not None:
+        find_and_finish(given, work, values)
+    else:
+        work.answer({state: values[state] for state in given.visited})
 
 
 @slip(
