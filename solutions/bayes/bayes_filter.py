@@ -24,6 +24,8 @@ from rldrill.solutions.work import Note, Work
 
 Belief: TypeAlias = dict[str, Any]
 Move: TypeAlias = Callable[[Work, Event, Belief, dict[str, Any]], Belief]
+#: What the next step begins with: by the step, the belief before it and after it, and what is known.
+Onward: TypeAlias = Callable[[Work, Event, Belief, Belief, dict[str, Any]], Belief]
 
 
 def solve(given: Given, work: Work) -> None:
@@ -31,12 +33,12 @@ def solve(given: Given, work: Work) -> None:
     _filter(given, work, (_moved, _weighed))
 
 
-def _filter(
-    given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool = False, unweighed: bool = False
-) -> None:
-    """Make these moves in every step; ``afresh`` begins each step with the first belief again, ``unweighed`` with
-    what was believed before the last measurement.
-    """
+def _after(_work: Work, _event: Event, _before: Belief, after: Belief, _known: dict[str, Any]) -> Belief:
+    return after
+
+
+def _filter(given: Given, work: Work, moves: tuple[Move, ...], onward: Onward = _after) -> None:
+    """Make these moves in every step; each begins with the belief after the one before it."""
     states = tuple(given.belief)
     start = knowns.values(given.belief)
     known: dict[str, Any] = {
@@ -62,21 +64,18 @@ def _filter(
         known |= {name: knowns.settled(known[name], value) for name in ("motion", "likelihood")}
     belief = start
     for step, event in enumerate(given.run, 1):
-        before = belief = start if afresh else belief
         asked = step > 1 or given.outcome is None
         if step > 1:
             work.say("In the next step $p$ is the belief that was found.")
         now = known | ({"label": f'"step" {step}'} if len(given.run) > 1 else {})
-        belief = settled if not asked and settled else _moves(event, work, moves, belief, now)
+        after = settled if not asked and settled else _moves(event, work, moves, belief, now)
         if asked:
-            work.picture(before_and_after, before, belief)
-            belief = work.answer(belief)
-        if unweighed:
-            belief = _moved(work, event, before, now)
+            work.picture(before_and_after, belief, after)
+            after = work.answer(after)
+        belief = onward(work, event, belief, after, now)
     if given.ahead is not None:
         work.say("In the next step $p$ is the belief that was found.")
         _told(work, given.ahead)
-        belief = start if afresh else belief
         if _moved in moves:
             belief = _moved(work, given.ahead, belief, known)
         if given.ahead.action is None:
@@ -131,7 +130,7 @@ def order_swapped(given: Given, work: Work) -> None:
 )
 def prior_again(given: Given, work: Work) -> None:
     """Every step from the first belief."""
-    _filter(given, work, (_moved, _weighed), afresh=True)
+    _filter(given, work, (_moved, _weighed), lambda _work, _event, before, _after, _known: before)
 
 
 @slip(
@@ -141,7 +140,7 @@ def prior_again(given: Given, work: Work) -> None:
 )
 def unweighed(given: Given, work: Work) -> None:
     """Every step from the prediction of the step before."""
-    _filter(given, work, (_moved, _weighed), unweighed=True)
+    _filter(given, work, (_moved, _weighed), lambda work, event, before, _, known: _moved(work, event, before, known))
 
 
 def _before_others(given: Given) -> Sequence[Event]:

@@ -1,7 +1,7 @@
 """The five lines of the Kalman filter, step by step, in matrices; on a line they are 1×1."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
@@ -29,9 +29,17 @@ from rldrill.solutions.sheet.bayes import (
 )
 from rldrill.solutions.work import Work
 
+#: Mean and covariance.
+Gaussian: TypeAlias = tuple[Any, Any]
 
-def solve(given: Given, work: Work, *, unweighed: bool = False) -> None:
-    """Every step: the belief moved, then weighed with the measurement; ``unweighed`` goes on from the motion alone."""
+
+def solve(given: Given, work: Work) -> None:
+    """Every step: the belief moved, then weighed with the measurement."""
+    _filter(given, work, lambda _moved, weighed: weighed)
+
+
+def _filter(given: Given, work: Work, onward: Callable[[Gaussian, Gaussian], Gaussian]) -> None:
+    """The steps, each from what goes ``onward`` of the belief as it was moved and as it was weighed before it."""
     mean, covariance = given_matrix(given.mean), given_matrix(given.covariance)
     models: dict[str, Any] = {
         "Ai": given_matrix(given.A), "Bi": given_matrix(given.B), "Ci": given_matrix(given.C),
@@ -63,8 +71,7 @@ def solve(given: Given, work: Work, *, unweighed: bool = False) -> None:
         if event.z is not None:
             known |= {"mean_bar": {time: mean}, "covariance_bar": {time: covariance}}
             known["read"] = {time: given_matrix(event.z)}
-            weighed = _measured(given, work, answer, known)
-            mean, covariance = (mean, covariance) if unweighed else weighed
+            mean, covariance = onward((mean, covariance), _measured(given, work, answer, known))
 
 
 def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) -> None:
@@ -94,7 +101,7 @@ def _unasked(value: Any) -> Any:
     return value
 
 
-def _measured(given: Given, work: Work, answer: Answering, known: dict[str, Any]) -> tuple[Any, Any]:
+def _measured(given: Given, work: Work, answer: Answering, known: dict[str, Any]) -> Gaussian:
     gain = work.step(KALMAN_GAIN, **known)
     if given.on_a_line:
         known = known | {"Kt": {known["t"]: gain}}
@@ -105,7 +112,7 @@ def _measured(given: Given, work: Work, answer: Answering, known: dict[str, Any]
     return mean, answer(work.step(KALMAN_COVARIANCE, **known))
 
 
-def _answered(answer: Answering, mean: Any, covariance: Any) -> tuple[Any, Any]:
+def _answered(answer: Answering, mean: Any, covariance: Any) -> Gaussian:
     """Mean and variance on a line as one answer, and as matrices to go on with."""
     first, second = answer((mean[0, 0], covariance[0, 0]))
     return matrix([[first]]), matrix([[second]])
@@ -118,7 +125,7 @@ def _answered(answer: Answering, mean: Any, covariance: Any) -> tuple[Any, Any]:
 )
 def unweighed(given: Given, work: Work) -> None:
     """Every step from what the motion before has left."""
-    solve(given, work, unweighed=True)
+    _filter(given, work, lambda moved, _weighed: moved)
 
 
 MISCONCEPTIONS = (

@@ -31,6 +31,7 @@ from rldrill.solutions.sheet.bellman import (
     RESIDUAL_MEAN,
     RESIDUAL_SIGN,
 )
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
 
@@ -66,14 +67,8 @@ def _only(*, optimal: bool) -> str:
     return f"with $γ < 1$ only one function solves the Bellman {'optimality ' if optimal else ''}equations"
 
 
-def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
-    """The reward with which the equation holds where it is earned, too; the residuals with a number for it.
-
-    Args:
-        given: the problem.
-        work: where the steps are written.
-        kept: whether the action whose reward is asked for is still taken with the number, best or not.
-    """
+def _of_reward(given: Sought, work: Work) -> None:
+    """The reward with which the equation holds where it is earned, too; the residuals with a number for it."""
     _demand_sense(given)
     mdp, row, letter = given.mdp, given.row, str(given.row.reward)
     gamma, V = exact(given.gamma), knowns.state_values(given.values, given.mdp.terminal)
@@ -97,11 +92,15 @@ def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
     work.say(f"With ${letter} {equals(reward)}$ all residuals are $0$, and {_only(optimal=True)}: so $V = V^*$.")
     work.answer(reward)
     work.say(f"With ${letter} = {shown(given.reward)}$ only the residual of {row.state} changes:")
-    taken = [each for each in mdp.transitions if not kept or each.state != row.state or each.action == row.action]
-    closed = with_reward(Model(transitions=tuple(taken), terminal=mdp.terminal), given.reward)
-    now = knowns.model(closed) | {"gamma": gamma, "V": V}
-    residuals[row.state] = work.step(BELLMAN_OPTIMALITY_RESIDUAL, s=row.state, **now)
+    residuals[row.state] = _residual_with_reward(given, work, mdp)
     work.answer({state: residuals[state] for state in mdp.states})
+
+
+def _residual_with_reward(given: Sought, work: Work, mdp: Model) -> Value:
+    """The residual in the state of the open reward, with the number for it."""
+    known = knowns.model(with_reward(mdp, given.reward)) | {"gamma": exact(given.gamma)}
+    values = knowns.state_values(given.values, mdp.terminal)
+    return work.step(BELLMAN_OPTIMALITY_RESIDUAL, s=given.row.state, V=values, **known)
 
 
 def _demand_sense(given: Sought) -> None:
@@ -179,7 +178,12 @@ def one_state(given: Claimed, work: Work) -> None:
 )
 def action_kept(given: Sought, work: Work) -> None:
     """The residual with the action whose reward has become too small."""
-    _of_reward(given, work, kept=True)
+    reward, residuals = right_answers(solve, given, work)
+    work.answer(reward)
+    mdp, row = given.mdp, given.row
+    taken = [each for each in mdp.transitions if each.state != row.state or each.action == row.action]
+    alone = Model(transitions=tuple(taken), terminal=mdp.terminal)
+    work.answer(residuals | {row.state: _residual_with_reward(given, work, alone)})
 
 
 MISCONCEPTIONS = (

@@ -55,7 +55,25 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         _optimal(given, work, evaluation)
 
 
-def _sought(given: Sought, work: Work, chosen: Chosen, *, kept: bool = False) -> None:
+def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
+    """What one of the optimal values says of the model, then how small the reward may be."""
+    found = _found(given, work, chosen)
+    start = {given.state: found.best, given.row.state: found.rival}
+    known = knowns.model(given.mdp) | {"gamma": exact(given.gamma)}
+    work.answer(_least(given, work, known, {each: start[each] for each in given.mdp.states}))
+
+
+class _Found(NamedTuple):
+    """The best action where the value is known, the best other one where the reward is earned, and what the actions
+    are worth there.
+    """
+
+    best: str
+    rival: str
+    worths: Mapping[str, Value]
+
+
+def _found(given: Sought, work: Work, chosen: Chosen) -> _Found:
     """The other value, with which the maximum is what is known; the reward, with which it is that value."""
     mdp, state, row = given.mdp, given.state, given.row
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
@@ -66,12 +84,7 @@ def _sought(given: Sought, work: Work, chosen: Chosen, *, kept: bool = False) ->
     reward, worths = rewarded(work, Q_STAR_FROM_V, row, "V^*", V[row.state], V, demanding=certain, **known)
     work.answer(reward)
     rivals = [action for action in mdp.actions[row.state] if action != row.action]
-    rival = max(rivals, key=worths.__getitem__)
-    if kept:
-        work.answer(work.equate(str(row.reward), worths[row.action], worths[rival]))
-        return
-    start = {state: best, row.state: rival}
-    work.answer(_least(given, work, known, {each: start[each] for each in mdp.states}))
+    return _Found(best, max(rivals, key=worths.__getitem__), worths)
 
 
 def _least(given: Sought, work: Work, known: Mapping[str, Any], policy: dict[str, str]) -> Value:
@@ -239,7 +252,8 @@ def exceeds(given: Sought, work: Work) -> None:
 )
 def value_kept(given: Sought, work: Work) -> None:
     """The smallest reward with the optimal values of the other one."""
-    _sought(given, work, min, kept=True)
+    _, rival, worths = _found(given, work, min)
+    work.answer(work.equate(str(given.row.reward), worths[given.row.action], worths[rival]))
 
 
 def _at_random(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:

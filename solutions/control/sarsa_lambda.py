@@ -34,7 +34,7 @@ Traces = dict[Pair, Value]
 def solve(given: Given, work: Work) -> None:
     """All traces first; then for every transition the TD error, and every pair that has a trace."""
     if given.watkins:
-        _watkins(given, work)
+        _watkins(given, work, _cut)
     else:
         _move(given, work, _traces(given, work))
 
@@ -89,16 +89,24 @@ def _moved(
     }  # fmt: skip
 
 
-def _watkins(given: Given, work: Work, *, cut: bool = True) -> None:
-    """Transition by transition: no trace is left where the action is not greedy; then traces, error and values."""
+def _cut(work: Work, trace: Traces, time: int, state: str, action: str) -> Traces:
+    """No trace is left."""
+    if any(trace.values()):
+        work.say(f"At $t = {time}$ in {state} the action {action} is not greedy, so all traces are set to $0$.")
+    return dict.fromkeys(trace, ZERO)
+
+
+def _watkins(given: Given, work: Work, left: Callable[[Work, Traces, int, str, str], Traces]) -> None:
+    """Transition by transition: what is ``left`` of the traces where the action is not greedy; then traces, error and
+    values.
+    """
     known = knowns.action_run(given) | {"lam": exact(given.lam)}
     trace = dict.fromkeys(given.eligible, ZERO) | _before(given)
     judged_by = known["Q"]
     for time, (state, action) in enumerate(_visits(given)):
         greatest = largest([judged_by[state, other] for other in given.values[state]])
-        if cut and judged_by[state, action] != greatest and any(trace.values()):
-            work.say(f"At $t = {time}$ in {state} the action {action} is not greedy, so all traces are set to $0$.")
-            trace = dict.fromkeys(trace, ZERO)
+        if judged_by[state, action] != greatest:
+            trace = left(work, trace, time, state, action)
         trace = _visited(given, work, known, trace, time, (state, action))
         error = work.step(Q_LEARNING_TD_ERROR, t=time, **known)
         judged_by = known["Q"]
@@ -183,7 +191,7 @@ def only_visited(given: Given, work: Work) -> None:
 )
 def traces_kept(given: Given, work: Work) -> None:
     """The traces outlast actions that are not greedy."""
-    _watkins(given, work, cut=False)
+    _watkins(given, work, lambda _work, trace, _time, _state, _action: trace)
 
 
 MISCONCEPTIONS = (

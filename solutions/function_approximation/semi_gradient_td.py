@@ -6,7 +6,7 @@ from typing import Any
 from rldrill.problems.function_approximation.semi_gradient_td import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
@@ -26,29 +26,38 @@ from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Work
 
 
-def solve(given: Given, work: Work, *, stale: bool = False) -> None:
-    """The errors first, with the weights that they are found with, ``stale`` ones with the first weights; then the last
-    of the weights.
-    """
-    run = given.trajectory
-    known = knowns.trajectory(run) | {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
-    known |= (_stacked if given.actions else _plain)(given)
-    step = SEMI_GRADIENT_SARSA if given.actions else SEMI_GRADIENT_TD
-    theta = Vector(map(exact, given.theta))
-    last = len(run.rewards) - 1
-
+def solve(given: Given, work: Work) -> None:
+    """The errors first, each with the weights that the step before has left; then the last of the weights."""
+    known, current, step = _known(given), _first_weights(given), _step(given)
     errors: list[Value] = []
-    current = theta
-    for time in range(last + 1):
+    for time in range(len(given.trajectory.rewards)):
         known["delta"] = dict(enumerate(errors))
-        if time and not stale:
+        if time:
             current = work.step(step, t=time - 1, theta_vector=current, **known)
         errors.append(_error(given, work, known, current, time))
-    known["delta"] = dict(enumerate(work.answer(tuple(errors))))
+    _finish(given, work, known, errors)
 
+
+def _finish(given: Given, work: Work, known: Mapping[str, Any], errors: Sequence[Value]) -> None:
+    """The errors, then the weights after the last of the steps that they make."""
+    known = {**known, "delta": dict(enumerate(work.answer(tuple(errors))))}
+    theta, step, last = _first_weights(given), _step(given), len(errors) - 1
     for time in range(last):  # these steps stand in the working of (a) already
         theta = work.value(step, t=time, theta_vector=theta, **known)
     work.answer(tuple(work.step(step, t=last, theta_vector=theta, **known)))
+
+
+def _known(given: Given) -> dict[str, Any]:
+    known = knowns.trajectory(given.trajectory) | {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
+    return known | (_stacked if given.actions else _plain)(given)
+
+
+def _first_weights(given: Given) -> Vector:
+    return Vector(map(exact, given.theta))
+
+
+def _step(given: Given) -> Formula:
+    return SEMI_GRADIENT_SARSA if given.actions else SEMI_GRADIENT_TD
 
 
 @slip(
@@ -58,7 +67,9 @@ def solve(given: Given, work: Work, *, stale: bool = False) -> None:
 )
 def stale_weights(given: Given, work: Work) -> None:
     """All errors with the weights before the run."""
-    solve(given, work, stale=True)
+    known, theta = _known(given), _first_weights(given)
+    errors = [_error(given, work, known, theta, time) for time in range(len(given.trajectory.rewards))]
+    _finish(given, work, known, errors)
 
 
 MISCONCEPTIONS = (

@@ -29,21 +29,29 @@ Point: TypeAlias = dict[int, Any]
 
 def solve(given: Given, work: Work) -> None:
     """For every policy how far to go, the projected point and the weights; the distance that is left."""
-    _project(given, work, lambda projected, _: projected)
+    _project(given, work)
 
 
-def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Point], *, afresh: bool = False) -> None:
-    """The projection method; the weights point from ``weighed_from(projected point, policy)`` to the expert, and
-    ``afresh`` begins each projection at the first point again.
+def _project(
+    given: Given,
+    work: Work,
+    *,
+    weighed_from: Callable[[Point, Point], Point] = lambda projected, _policy: projected,
+    begun_at: Callable[[Point, Point], Point] = lambda _first, last: last,
+) -> None:
+    """The projection method.
+
+    The weights point from ``weighed_from(projected point, policy)`` to the expert; a projection begins at
+    ``begun_at(first point, last point)``.
     """
     features = tuple(range(1, len(given.expert) + 1))
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
-    point, weights = _vector(given.first), {}
+    point = first = _vector(given.first)
+    weights: Point = {}
     policies = [_vector(mu) for mu in given.policies]
     several = len(policies) + bool(given.candidates and given.projected) > 1
     for number, mu in enumerate(policies, 1):
-        start = _vector(given.first) if afresh else point
-        known |= {"mu_now": mu, "mu_bar": start, "label": f"π_{{{number}}}" if several else None}
+        known |= {"mu_now": mu, "mu_bar": begun_at(first, point), "label": f"π_{{{number}}}" if several else None}
         length = _length(work, known)
         if number == 1 and not given.candidates:
             length = work.answer(length)
@@ -55,8 +63,7 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     if given.candidates:
         mu = _next(given.candidates, work, weights)
     if given.candidates and given.projected:
-        start = _vector(given.first) if afresh else point
-        known |= {"mu_now": mu, "mu_bar": start, "label": f"π_{{{len(policies) + 1}}}"}
+        known |= {"mu_now": mu, "mu_bar": begun_at(first, point), "label": f"π_{{{len(policies) + 1}}}"}
         moved = work.answer(_moved(work, features, known, _length(work, known)))
         point = dict(zip(features, moved, strict=True))
         known["mu_bar"] = weighed_from(point, mu)
@@ -110,7 +117,7 @@ def _next(candidates: dict[str, Any], work: Work, weights: Point) -> Point:
 )
 def not_projected(given: Given, work: Work) -> None:
     """Weights from the policy itself."""
-    _project(given, work, lambda _, policy: policy)
+    _project(given, work, weighed_from=lambda _projected, policy: policy)
 
 
 @slip(
@@ -120,7 +127,7 @@ def not_projected(given: Given, work: Work) -> None:
 )
 def from_first(given: Given, work: Work) -> None:
     """Each policy projected with the first point at the other end."""
-    _project(given, work, lambda projected, _: projected, afresh=True)
+    _project(given, work, begun_at=lambda first, _last: first)
 
 
 MISCONCEPTIONS = (

@@ -1,7 +1,7 @@
 """Monte Carlo from one episode: the returns backwards in time, then an update for every visit that counts."""
 
-from collections.abc import Iterable, Iterator
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, TypeAlias
 
 from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.monte_carlo import Given, OfActions, OfStates
@@ -16,71 +16,72 @@ from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_
 from rldrill.solutions.sheet.temporal_difference import MONTE_CARLO
 from rldrill.solutions.work import Work
 
+Values = dict[Any, Value]
+#: The new value of what is visited at a time, by the values that are current.
+New: TypeAlias = Callable[[int, Values], Value]
+#: Times, and what is visited at them.
+Visits: TypeAlias = Iterable[tuple[int, Any]]
+
 
 def solve(given: Given, work: Work) -> None:
     """All returns first; then one update for every visit that counts, in their order."""
-    _finish(given, work, _returns(given, work))
+    _finish(given, work, _answered(given, work, _returns(given, work)))
+
+
+def _one_by_one(values: Values, visits: Visits, new: New) -> Values:
+    for time, visited in visits:
+        values = values | {visited: new(time, values)}
+    return values
 
 
 def _finish(
     given: Given,
     work: Work,
     returns: tuple[Value, ...],
+    updated: Callable[[Values, Visits, New], Values] = _one_by_one,
     *,
-    stale: bool = False,
     only: Iterable[int] | None = None,
 ) -> None:
-    """The updates with these returns; ``stale`` ones all start from the values before the first, and ``only`` says
-    at which times they are made, if not at those that count.
-    """
+    """The updates with these returns; ``only`` says at which times they are made, if not at those that count."""
+    values, new = _of_states(given, work, returns) if isinstance(given, OfStates) else _of_actions(given, work, returns)
     times = _counted(given, work) if only is None else only
+    values = updated(values, ((time, given.occasions[time]) for time in times), new)
+    after: Values = {visited: values[visited] for visited in given.updated}
     if isinstance(given, OfStates) and given.known is not None:
-        find_and_finish(given, work, _updated(given, work, returns, times, stale=stale))
-    elif isinstance(given, OfStates):
-        work.answer(_updated(given, work, returns, times, stale=stale))
+        find_and_finish(given, work, after)
     else:
-        work.answer(_updated_pairs(given, work, returns, times, stale=stale))
+        work.answer(after)
 
 
-def _returns(given: Given, work: Work, *, early: bool = False) -> tuple[Value, ...]:
-    """The returns, which are the first answer where they are asked for; ``early`` ones begin one reward too early,
-    but for the first, before which nothing is earned: $r_t + γ R_t$ is $R_{t−1}$.
-    """
+def _returns(given: Given, work: Work) -> tuple[Value, ...]:
     rewards = knowns.trajectory(given.trajectory)["r"]
     end = len(rewards)
     G = {end: ZERO}
     for time in reversed(range(end)):
         G = G | {time: work.step(RETURN_RECURSIVE, t=time, G=G, r=rewards, gamma=exact(given.gamma))}
-    returns = tuple(G[max(0, time - early)] for time in range(end))
+    return tuple(G[time] for time in range(end))
+
+
+def _answered(given: Given, work: Work, returns: tuple[Value, ...]) -> tuple[Value, ...]:
+    """The returns to go on with, which are the first answer where they are asked for."""
     if not given.in_parts:
         return returns
-    carried = work.answer(returns if end > 1 else returns[0])
-    return carried if end > 1 else (carried,)
+    several = len(returns) > 1
+    carried = work.answer(returns if several else returns[0])
+    return carried if several else (carried,)
 
 
-def _updated_pairs(
-    given: OfActions, work: Work, returns: tuple[Value, ...], times: Iterable[int], *, stale: bool
-) -> dict[tuple[str, str], Value]:
-    known = knowns.action_run(given)
-    values = first = known.pop("Q")
-    for time in times:
-        pair = given.moves[time][:2]
-        now = first if stale else values
-        new = work.step(TOWARDS_TARGET, t=time, y=dict(enumerate(returns)), Q=now, **known)
-        values = values | {pair: values[pair] + new - now[pair] if stale else new}
-    return {pair: values[pair] for pair in given.updated}
+def _of_states(given: OfStates, work: Work, returns: tuple[Value, ...]) -> tuple[Values, New]:
+    known: dict[str, Any] = {"S": dict(enumerate(given.trajectory.states)), "G": dict(enumerate(returns))}
+    known["alpha"] = exact(given.alpha)
+    values = {state: exact(value) for state, value in given.values.items()}
+    return values, lambda time, V: work.step(MONTE_CARLO, t=time, V=V, **known)
 
 
-def _updated(
-    given: OfStates, work: Work, returns: tuple[Value, ...], times: Iterable[int], *, stale: bool
-) -> dict[str, Value]:
-    S = dict(enumerate(given.trajectory.states))
-    values = first = {state: exact(value) for state, value in given.values.items()}
-    for time in times:
-        now = first if stale else values
-        new = work.step(MONTE_CARLO, t=time, V=now, S=S, G=dict(enumerate(returns)), alpha=exact(given.alpha))
-        values = values | {S[time]: values[S[time]] + new - now[S[time]] if stale else new}
-    return {state: values[state] for state in given.visited}
+def _of_actions(given: OfActions, work: Work, returns: tuple[Value, ...]) -> tuple[Values, New]:
+    known = knowns.action_run(given) | {"y": dict(enumerate(returns))}
+    values = known.pop("Q")
+    return values, lambda time, Q: work.step(TOWARDS_TARGET, t=time, Q=Q, **known)
 
 
 def _counted(given: Given, work: Work) -> Iterator[int]:
@@ -106,7 +107,12 @@ def _last(given: Given) -> list[int]:
 )
 def last_visit(given: Given, work: Work) -> None:
     """The return of the last visit for that of the first."""
-    _finish(given, work, _returns(given, work), only=_last(given) if given.visits == "first" else None)
+    _finish(
+        given,
+        work,
+        _answered(given, work, _returns(given, work)),
+        only=_last(given) if given.visits == "first" else None,
+    )
 
 
 @slip(
@@ -125,8 +131,9 @@ def other_visits(given: Given, work: Work) -> None:
     when=lambda given: len(given.trajectory.rewards) > 1,
 )
 def reward_before(given: Given, work: Work) -> None:
-    """Every return from one step earlier, and the updates with them."""
-    _finish(given, work, _returns(given, work, early=True))
+    """Every return from one step earlier, $r_t + γ R_t = R_{t−1}$, but for the first: nothing is earned before it."""
+    first, *others = _returns(given, work)
+    _finish(given, work, _answered(given, work, (first, first, *others[:-1])))
 
 
 @slip(
@@ -135,7 +142,14 @@ def reward_before(given: Given, work: Work) -> None:
 )
 def stale_values(given: Given, work: Work) -> None:
     """Every update moves by its share of the way from the value before the first one."""
-    _finish(given, work, _returns(given, work), stale=True)
+
+    def updated(first: Values, visits: Visits, new: New) -> Values:
+        values = first
+        for time, visited in visits:
+            values = values | {visited: values[visited] + new(time, first) - first[visited]}
+        return values
+
+    _finish(given, work, _answered(given, work, _returns(given, work)), updated)
 
 
 @slip(
@@ -145,7 +159,7 @@ def stale_values(given: Given, work: Work) -> None:
 )
 def mean_of_returns(given: Given, work: Work) -> None:
     """One update of everything visited, with the mean of its returns."""
-    returns = _returns(given, work)
+    returns = _answered(given, work, _returns(given, work))
     own: dict[Any, list[Value]] = {}
     for visited, after in zip(given.occasions, returns, strict=True):
         own.setdefault(visited, []).append(after)

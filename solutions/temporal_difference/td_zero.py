@@ -1,5 +1,7 @@
 """TD(0) along a run: each update with the values then current."""
 
+from collections.abc import Callable
+
 from rldrill.problems.temporal_difference.td_zero import AlongRun, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
@@ -10,18 +12,21 @@ from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.temporal_difference import TARGET_FOR_VALUE, TARGET_ONLY, TD_ZERO, WRONG_SIGN
 from rldrill.solutions.work import Work
 
+Values = dict[str, Value]
+
 
 def solve(given: Given, work: Work) -> None:
     """One update for every transition."""
-    _learn(given, work)
+    _learn(given, work, lambda _start, values: values)
 
 
-def _learn(given: Given, work: Work, *, newest: bool = True) -> None:
-    before = values = {s: exact(value) for s, value in given.values.items()} | dict.fromkeys(given.terminal, ZERO)
+def _learn(given: Given, work: Work, seen_of: Callable[[Values, Values], Values]) -> None:
+    """Every update reads what ``seen_of`` makes of the values before the run and those of its time."""
+    start = values = {s: exact(value) for s, value in given.values.items()} | dict.fromkeys(given.terminal, ZERO)
     known = {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
     errors: list[Value] = []
     for seen in knowns.moves(given):
-        current = values if newest else before
+        current = seen_of(start, values)
         if given.td_errors:
             from rldrill.solutions.sheet.policy_gradient import TD_ERROR  # most problems need nothing of that section
 
@@ -43,7 +48,7 @@ def _learn(given: Given, work: Work, *, newest: bool = True) -> None:
 )
 def stale(given: Given, work: Work) -> None:
     """Every update from the values before the run; of a state's updates the last one stands."""
-    _learn(given, work, newest=False)
+    _learn(given, work, lambda start, _values: start)
 
 
 MISCONCEPTIONS = (FORGOT_GAMMA, stale, TARGET_ONLY, WRONG_SIGN, TARGET_FOR_VALUE.where_it_shows())
