@@ -45,6 +45,8 @@ _LONGEST = 12
 
 def tell_exponentials(work: Work, preferences: Iterable[Value]) -> None:
     """Say what e to the power of a sum of logarithms is, or of a multiple of one, where a preference is such."""
+    if not work.is_read:
+        return
     found = [told for H in dict.fromkeys(map(to_sympy, preferences)) if (told := _exponential(H))]
     if found and Note(said := f"Since $exp(ln b) = b$, {joined(found)}.") not in work.lines:
         work.say(said)

@@ -448,9 +448,14 @@ class Work:
         """Write down what comes out for the quantity of a formula, by other means than putting in."""
         self.lines.append(Result((indexed(formula.left, indices),), (value,)))
 
+    @property
+    def is_read(self) -> bool:
+        """Whether anybody reads the sentences of the working: nobody does those of a mistake."""
+        return self.misconception is None
+
     def say(self, said: str | Callable[[], str]) -> None:
         """Write a sentence between the steps, or what makes it; mathematics stands between ``$`` signs."""
-        if self.misconception is None:  # nobody reads the working of a mistake
+        if self.is_read:
             self.lines.append(Note(said))
 
     def answer(self, value: Any) -> Any:

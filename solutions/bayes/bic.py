@@ -1,7 +1,7 @@
 """Log-likelihoods at the best fit, the criterion of both models, and the smaller one."""
 
 from collections.abc import Callable, Mapping
-from functools import reduce
+from functools import lru_cache, reduce
 from string import ascii_uppercase
 from typing import Any, TypeAlias
 
@@ -72,6 +72,7 @@ def _compare(given: Given, work: Work, better: int, border: Border = _number_of_
     work.answer(_winner(work, given, criteria, better))
 
 
+@lru_cache(maxsize=256)
 def _taken_apart(number: Value) -> str:
     """The logarithm of a number in those of primes; nothing where it is one already."""
     if sign(number) <= 0 or number == 1:
@@ -209,10 +210,10 @@ def _decimals(value: Value) -> str:
 
 def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
     name = given.criterion
-    numbers = [f"{name}({model}) {_decimals(value)}" for model, value in criteria.items()]
-    two = len(numbers) == 2
+    two = len(criteria) == 2
     if any(isinstance(value, sympy.Expr) for value in criteria.values()):
-        work.say(f"In numbers, {joined(numbers)}.")
+        numbers = (f"{name}({model}) {_decimals(value)}" for model, value in criteria.items())
+        work.say(lambda: f"In numbers, {joined([*numbers])}.")
     models = list(criteria)
     best = reduce(lambda one, other: other if order(criteria[other], criteria[one]) == better else one, models)
     if any(order(criteria[best], criteria[other]) == 0 for other in models if other != best):
