@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from flint import fmpq
+from msgspec.structs import replace
 from sympy import Expr, Mul, preorder_traversal
 
 from rldrill.problems.mathematics import Math, name, number, relation, row
@@ -172,11 +173,15 @@ def _what(cause: Cause) -> Words:
         template = _EDITS[cause.kind]
         if cause.kind == "factor-left-out" and not cause.edit.part.is_Symbol:
             template = "the factor {part} is missing"
+        if cause.kind == "inverse" and cause.edit.part.is_commutative is not False:
+            template = "it is multiplied with {instead} instead of divided by it"
         instead = None if cause.edit.instead is None else typeset(cause.edit.instead)
         words = _filled(template, part=_short(cause.edit.part) if "{part}" in template else None, instead=instead)
         return (*words, *_in_which_product(cause))
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
+        if template == _INSIDE[""]:
+            cause = _upright(cause)
         part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
         write = _written(cause.kind, cause.was, cause.other)
         was = write(cause.was) if "{was}" in template else None
@@ -194,6 +199,16 @@ def _what(cause: Cause) -> Words:
     was = None if cause.was is None else _number(cause.was)
     words = _filled(template, what=cause.what.replace("_", " "), was=was)
     return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words
+
+
+def _upright(cause: Cause) -> Cause:
+    """A number that was put in for what stands below a line, not one over it for one over what stands there."""
+    assert cause.probe is not None
+    part = cause.probe.part
+    below = part.is_Pow and part.exp == -1
+    if not below or not all(isinstance(each, fmpq) and each != 0 for each in (cause.was, cause.other)):
+        return cause
+    return replace(cause, probe=replace(cause.probe, part=part.base), was=1 / cause.was, other=1 / cause.other)
 
 
 def _in_which_product(cause: Cause) -> Words:

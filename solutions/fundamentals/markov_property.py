@@ -185,6 +185,17 @@ def one_next_state(given: Given, work: Work) -> None:
 
 
 @slip(
+    "another-next-state",
+    "Above the line stands what the table has for the next state that is asked for, not for another one.",
+    when=lambda given: given.missing is None,
+)
+def another_next_state(given: Given, work: Work) -> None:
+    """The first column that is not the one asked for."""
+    other = next(after for after in given.outcomes if after != given.asked)
+    solve(given.model_copy(update={"asked": other}), work)
+
+
+@slip(
     "totals-compared",
     "Histories need not be equally frequent: compare what follows them, each by its own total.",
     when=_uneven,
@@ -202,6 +213,7 @@ MISCONCEPTIONS = (
     COLUMN_FOR_ROW.where_it_shows(),
     one_next_state,
     totals_compared,
+    another_next_state.where_it_shows(),
 )
 
 

@@ -28,6 +28,7 @@ WALK = {
     "policy": {"A": {"left": "1/3", "right": "2/3"}, "B": {"left": "2/3", "right": "1/3"}},
     "features": {"A": [9, 5], "B": [5, 1]}, "start": {"A": "1/3", "B": "2/3"}, "terminal": ["end"], "gamma": "2/3",
 }  # fmt: skip
+COUNTS = {"table": [["a", "m", "x", 4], ["a", "m", "y", 16], ["b", "m", "x", 6], ["b", "m", "y", 9]], "asked": "x"}
 ONE = {"trajectory": {"states": ["hot", "cold"], "rewards": [7]}, "values": {"hot": 8, "cold": 10}, "alpha": "3/4"}
 SAID = [
     # 8 + 4/3·(7 + 1/2·10 − 8) = 40/3, whether one divides by α or turns it over.
@@ -47,6 +48,8 @@ SAID = [
     ),
     # P₁ = −(2 1; 1 5/2), as in examples/double-integrator.toml.
     ("lqr-backward", CART, "b", "[-2 1; 1 -5/2]", "the sign is wrong at row 1, column 2 and row 2, column 1"),
+    # 4/(4 + 16), and 6/16, where 6 + 9 = 15 belongs below the line.
+    ("markov-property", COUNTS, "a", "1/5, 6/16", "16 is put in for Σₛ′ N(sₜ₋₁, sₜ, s′), which is 15 in Pr(x|b, m)"),
     # The first visit of each state alone: edge 2 + (5 − 2)/4, start −3 + (9 + 3)/5; both are visited twice.
     ("sample-average", VISITS, "a", "start: -3/5, edge: 11/4", "the last round of updates is left out"),
 ]  # fmt: skip
