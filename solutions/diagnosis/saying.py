@@ -180,9 +180,8 @@ def _what(cause: Cause) -> Words:
         return (*words, *_in_which_product(cause))
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
-        if template == _INSIDE[""]:
-            cause = _upright(cause)
-        part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
+        cause = _upright(cause) if template == _INSIDE[""] else cause
+        part = typeset(named) if (named := _in_its_term(cause)) is not None else _part(cause)
         write = _written(cause.kind, cause.was, cause.other)
         was = write(cause.was) if "{was}" in template else None
         became = write(cause.other) if "{became}" in template else None
@@ -199,6 +198,11 @@ def _what(cause: Cause) -> Words:
     was = None if cause.was is None else _number(cause.was)
     words = _filled(template, what=cause.what.replace("_", " "), was=was)
     return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words
+
+
+def _part(cause: Cause) -> Math:
+    assert cause.probe is not None
+    return _short(cause.probe.part)
 
 
 def _upright(cause: Cause) -> Cause:
