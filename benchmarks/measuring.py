@@ -15,6 +15,8 @@ from typing import Any
 
 from rldrill.problems.catalogue import families, family
 
+#: So often something is done before it is measured: the first problems of a family load formulas and compile them.
+_BEFORE = 12
 _HELLO = "import typer\napp = typer.Typer()\n@app.command()\ndef main(): print('hello')\napp()"
 _NEEDED = "import typer, rich, pydantic, sympy, flint"
 #: Pydantic imports what models are made of when they are first asked for.
@@ -22,14 +24,14 @@ _MODELS = f"{_NEEDED}\nfrom pydantic import BaseModel, Field, TypeAdapter"
 
 
 def _rate(work: Callable[[int], object], seconds: float, least: int) -> float:
-    """How often something is done in a second of the processor, after it was done three times."""
-    for number in range(3):
+    """How often something is done in a second of the processor, after what is made but once was made."""
+    for number in range(_BEFORE):
         work(number)
-    start, number = time.process_time(), 3
-    while time.process_time() - start < seconds or number < least:
+    start, number = time.process_time(), _BEFORE
+    while time.process_time() - start < seconds or number < _BEFORE + least:
         work(number)
         number += 1
-    return (number - 3) / (time.process_time() - start)
+    return (number - _BEFORE) / (time.process_time() - start)
 
 
 def drawing() -> dict[str, float]:
@@ -39,7 +41,7 @@ def drawing() -> dict[str, float]:
     found = {}
     for name in families():
         level = min(family(name).levels, key=lambda level: abs(level - 2))
-        found[name] = _rate(lambda seed, name=name, level=level: draw(name, level, seed).mistakes, 0.15, 10)
+        found[name] = _rate(lambda seed, name=name, level=level: draw(name, level, seed).mistakes, 0.3, 10)
     return {"the median family": median(found.values())} | found
 
 

@@ -1,6 +1,6 @@
 """What is printed of every family's first problems is what was looked at when its page was written.
 
-A digest stands for what a page cannot show: eight draws of every level, and the same blocks in a narrow terminal, for
+A digest stands for what a page cannot show: four draws of every level, and the same blocks in a narrow terminal, for
 Typst and in Markdown.
 """
 

@@ -22,7 +22,7 @@ from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.solution import Solution
 
 #: As many problems of a level are held to what they were, as many to what is said and solved, as many to how they look.
-DRAWN, SAID, SEEN = 8, 4, 2
+DRAWN, SAID, SEEN = 4, 3, 1
 
 
 def page(family: Family) -> str:
