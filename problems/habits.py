@@ -20,6 +20,9 @@ ALSO = {
 } | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
 #: What stands between the entries of a list that is given as one text; such a text is none of its entries.
 _PARTED = re.compile(r"[\s,;]")
+#: Brackets around the whole of such a text, and what stands between its numbers for certain.
+_AROUND = re.compile(r"^\[([^\[\]]*)\]$")
+_BETWEEN = re.compile(r"\s*;\s*|\s*,\s+")
 #: What a schema only says, or gives as values.
 _SAID = ("title", "description", "default", "examples", "enum", "const")
 #: The fields of a run, which may be written in the order of time.
@@ -84,7 +87,8 @@ def _settled(value: Any, schemas: Sequence[Schema], parts: Mapping[str, Schema])
     if all(form.get("type") == "array" for form in forms):
         value = _rows(value, _entries(forms, parts))
     if all(form.get("type") == "array" for form in forms) and not isinstance(value, list | tuple):
-        value = [value] if _may_be_an_entry(value, _entries(forms, parts)) else value
+        entries = _entries(forms, parts)
+        value = [value] if _may_be_an_entry(value, entries) else _listed(value, entries)
     if isinstance(value, str) and all({*form.get("properties", ())} >= _RUN for form in forms):
         value = run_of(value) or value
     if isinstance(value, dict):
@@ -137,6 +141,23 @@ def _may_be_an_entry(value: Any, entries: Sequence[Schema]) -> bool:
     if isinstance(value, bool) or not isinstance(value, str | int | float) or _PARTED.search(str(value)):
         return False
     return bool(entries) and not any("properties" in entry or entry.get("type") == "array" for entry in entries)
+
+
+def _listed(value: Any, entries: Sequence[Schema]) -> Any:
+    """The entries of a list of names or numbers that is given as one text; what may be a decimal comma parts none."""
+    kinds = {("number" in entry.get("type", ()), entry.get("title") == "a name") for entry in entries}
+    if not isinstance(value, str) or kinds not in ({(True, False)}, {(False, True)}):
+        return value
+    bare = _AROUND.sub(r"\1", value.strip())
+    if kinds == {(False, True)}:
+        found = re.split(r"[,;]", bare)
+    elif _BETWEEN.search(bare):
+        found = _BETWEEN.split(bare)
+    elif bare.count(",") > 1 or not re.search(r"[,/]", bare):  # 2 1/2 is a number
+        found = re.split(r",|\s+", bare)
+    else:
+        return value
+    return [entry.strip() for entry in found]
 
 
 def _table(value: Mapping[str, Any], forms: Sequence[Schema], parts: Mapping[str, Schema]) -> dict[str, Any]:

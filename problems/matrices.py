@@ -20,6 +20,10 @@ _WRITTEN = re.compile(
 _PLAIN = {"&": ",", "\\\\": ";"}
 _MADE = re.compile(r"\s*(?:(?:np|numpy|jnp)\.)?(?:eye|diag|identity|zeros|ones)\s*\(|\s*I(?:_?\d)?\s*$")
 _ROW = re.compile(r"\[([^\[\]]+)\]")
+#: A number before or behind a matrix: 1/2 [1 1; 0 1], −[1 0; 0 1], [2 0; 0 2]/3.
+_SCALED = re.compile(
+    r"(?s)\s*([^\[\]\\]*?)\s*[*·×⋅]?\s*((?:(?:np|numpy|jnp)\.)?(?:array|matrix)\()?(\[.*\])\)?\s*(?:([*·×⋅/])\s*([^\[\]]+?))?\s*"
+)
 
 
 def _typed_rows(text: str) -> list[list[str]] | None:
@@ -39,7 +43,13 @@ def _read_rows(text: str) -> Any:
     """
     if _MADE.match(text):
         raise ValueError(f"{text[:40]!r} is not worked out here; write its rows, as [[1, 2], [3, 4]] or '[1 2; 3 4]'")
-    return _typed_rows(text) or text
+    rows = _typed_rows(text)
+    scaled = _SCALED.fullmatch(text)
+    if scaled is None or not (scaled[1] or scaled[5]):
+        return rows or text
+    before = scaled[1] if scaled[1] in ("", "-", "−", "+") else f"({scaled[1]})*"
+    behind = f"{scaled[4]}({scaled[5]})" if scaled[5] else ""
+    return [[f"{before}({entry}){behind}" for entry in row] for row in _typed_rows(scaled[3]) or ()]
 
 
 def _rows(value: Any) -> Any:

@@ -2,7 +2,7 @@
 
 import re
 
-from rldrill.problems.notations import read_mathematics
+from rldrill.problems.notations import in_notation, read_mathematics
 from rldrill.problems.parts import Kind, Numbers
 from rldrill.render.mathematics.unicode import unicode
 
@@ -11,7 +11,7 @@ _ENTRY = re.compile(r"\bentry (\d+)\b")
 
 def entry_name(entry: str) -> str:
     """An entry of ``Numbers`` as it is written: ``δ₁``."""
-    return unicode(read_mathematics(entry))
+    return unicode(in_notation(read_mathematics(entry)))
 
 
 def by_name(says: str, kind: Kind) -> str:

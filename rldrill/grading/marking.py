@@ -17,6 +17,7 @@ from rldrill.exercise import Exercise, draw, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
 from rldrill.grading.report import Judged, Score, missing
+from rldrill.problems.notations import LECTURE, used
 from rldrill.problems.parts import Part, Policy
 from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
@@ -63,6 +64,7 @@ class Rules(Struct, frozen=True):
         causes: whether it is searched for what wrong answers come from.
         keys: whether the right answers are written.
         commas: whether the exam was written with decimal commas, so that answers may have them.
+        notation: how its quantities are written, so that answers name them.
     """
 
     partial: str = "entries"
@@ -70,10 +72,12 @@ class Rules(Struct, frozen=True):
     causes: bool = True
     keys: bool = False
     commas: bool = False
+    notation: str = LECTURE
 
     def of(self, exam: "Exam") -> "Rules":
         """The same with what an exam says itself."""
-        return replace(self, partial=exam.partial, commas=exam.head.decimal_mark == ",")
+        commas = exam.head.decimal_mark == ","
+        return replace(self, partial=exam.partial, commas=commas, notation=exam.layout.notation)
 
 
 class Task(Struct, frozen=True):
@@ -156,7 +160,9 @@ class Desk:
             says = self._take(entry, taken, problem, task.name)
             if says:
                 refused.append(refusal(entry, says, task.name))
-        return Marked(tuple(problem.marks(taken)), tuple(refused), problem.exercise.notes)
+        with used(self._rules.notation):
+            marks = tuple(problem.marks(taken))
+        return Marked(marks, tuple(refused), problem.exercise.notes)
 
     def _take(self, entry: Entry, taken: dict[str, Entry], problem: "Judging", name: str) -> str:
         """Take an answer in; a sentence if it cannot be."""

@@ -16,9 +16,10 @@ from rldrill.problems.mathematics import (
     listed,
     name,
     row,
+    signs,
     word,
 )
-from rldrill.problems.notations import AS_IT_STANDS, read_mathematics
+from rldrill.problems.notations import AS_IT_STANDS, LECTURE, in_notation, in_use, read_mathematics
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
@@ -166,9 +167,24 @@ class NumbersAnswer(Answer[parts.Numbers]):
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        entries, called = [entry.removeprefix(AS_IT_STANDS) for entry in self.kind.entries], self.kind.called
-        read = read_vector(text, len(entries), allowed.parameters, entries, allowed.longest, called)
+        lecture = tuple(entry.removeprefix(AS_IT_STANDS) for entry in self.kind.entries)
+        try:
+            read = self._vector(text, self._names or lecture, allowed)
+        except Unreadable:
+            if not self._names:
+                raise
+            read = self._vector(text, lecture, allowed)
         return {name: reading for name, reading in self.cells(read).items() if reading is not None}
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        """What the entries are in the notation in use; nothing in the lecture's."""
+        if in_use().notation == LECTURE:
+            return ()
+        return tuple("".join(signs(in_notation(read_mathematics(entry)))) for entry in self.kind.entries)
+
+    def _vector(self, text: str, names: Sequence[str], allowed: Allowed) -> tuple[Reading | None, ...]:
+        return read_vector(text, len(names), allowed.parameters, names, allowed.longest, self.kind.called)
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return tuple(cells.values())

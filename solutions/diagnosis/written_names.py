@@ -8,6 +8,7 @@ from unicodedata import combining, normalize
 from sympy import Expr, preorder_traversal
 
 from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Root, Row, Script
+from rldrill.problems.notations import in_notation
 from rldrill.solutions.formula.edits import flat
 from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.sheet import formulas
@@ -71,8 +72,11 @@ def names(step: Step) -> set[str]:
 
 
 def names_of(quantity: Expr) -> Iterator[str]:
-    """A name as it is typeset, without what is above and below its letters, and with the letter of the textbooks."""
-    left = typeset(quantity)
+    """A name in the notation in use, without what is above and below its letters, and with the letter of the textbooks.
+
+    Where the notation in use has another letter for it, the lecture's may be that of something else.
+    """
+    left = in_notation(typeset(quantity))
     for math in (left, *_without_scripts(left), _with_plain_arguments(left)):
         written = plain_name(_signs(math))
         yield written
@@ -94,7 +98,7 @@ def _with_plain_arguments(math: Math) -> Math:
 
 def letters(step: Step) -> set[str]:
     """The letter of a step alone, without its index or argument, large or small as it is."""
-    left = typeset(step.left)
+    left = in_notation(typeset(step.left))
     written = (spelled(_signs(math)) for math in (left, *_without_scripts(left)))
     found = {_INDEX.sub("", re.sub(r"\(.*", "", name)) for name in written}
     return {letter for letter in found if len(letter) == 1 and letter.isalpha()}
