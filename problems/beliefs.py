@@ -1,13 +1,13 @@
 """Beliefs over states or hypotheses, how robots move and sense, and how questions show these."""
 
 from collections.abc import Iterable, Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, ValidationInfo
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo
 
 from rldrill.problems.bars import belief_bars
 from rldrill.problems.document import Block, Table
-from rldrill.problems.exact import OpenProbability, Parameter, Probability, Scalar, shown
+from rldrill.problems.exact import OpenProbability, Parameter, Probability, Scalar, is_scalar, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Hypotheses, Name, Named, OpenDistributionField, check_keys, check_sum
@@ -51,8 +51,19 @@ def _by_action(motion: Motion) -> Motion:
     }
 
 
+def _has_actions(value: Any) -> Any:
+    """Refuse a table of states where one of actions is needed: in its rows stand states, and their probabilities."""
+    rows = value if isinstance(value, dict) else {}
+    if rows and all(
+        isinstance(row, dict) and row and {*row} <= {*rows} and all(map(is_scalar, row.values()))
+        for row in rows.values()
+    ):
+        raise ValueError(f"holds states alone; put the name of the action before them, as {{go = {{{min(rows)} = …}}}}")
+    return value
+
+
 #: Where actions lead: for every action and state the probabilities of the next states.
-MotionField = Annotated[Named[Named[OpenDistributionField]], AfterValidator(_by_action)]
+MotionField = Annotated[Named[Named[OpenDistributionField]], BeforeValidator(_has_actions), AfterValidator(_by_action)]
 
 
 def _fits(table: Likelihood) -> bool:

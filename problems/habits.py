@@ -16,13 +16,13 @@ ALSO = {
     "λ": "lam", "lambda_": "lam", "behavior": "behaviour", "centers": "centres", "discretization": "discretisation",
     "Qf": "Q_T", "Q_f": "Q_T", "QT": "Q_T", "Q_N": "Q_T", "noise": "slip", "observation": "measurement",
     "iterations": "sweeps", "k": "sweeps", "V": "values", "Q": "values", "V0": "start", "episode": "trajectory",
-    "loglik": "log_likelihood", "logL": "log_likelihood", "log_lik": "log_likelihood",
+    "S": "P", "x0": "start", "loglik": "log_likelihood", "logL": "log_likelihood", "log_lik": "log_likelihood",
 } | {glyph: name for name, glyph in GREEK.items() if name != "lambda"}  # fmt: skip
 #: What stands between the entries of a list that is given as one text; such a text is none of its entries.
 _PARTED = re.compile(r"[\s,;]")
 #: Brackets around the whole of such a text, and what stands between its numbers for certain.
 _AROUND = re.compile(r"^\[([^\[\]]*)\]$")
-_BETWEEN = re.compile(r"\s*;\s*|\s*,\s+")
+_BETWEEN, _WHOLE = re.compile(r"\s*;\s*|\s*,\s+"), re.compile(r"\s*[+-]?\d+\s*")
 #: What a schema only says, or gives as values.
 _SAID = ("title", "description", "default", "examples", "enum", "const")
 #: The fields of a run, which may be written in the order of time.
@@ -145,11 +145,13 @@ def _may_be_an_entry(value: Any, entries: Sequence[Schema]) -> bool:
 
 def _listed(value: Any, entries: Sequence[Schema]) -> Any:
     """The entries of a list of names or numbers that is given as one text; what may be a decimal comma parts none."""
-    kinds = {("number" in entry.get("type", ()), entry.get("title") == "a name") for entry in entries}
-    if not isinstance(value, str) or kinds not in ({(True, False)}, {(False, True)}):
+    kinds = {_kind(entry) for entry in entries}
+    if not isinstance(value, str) or len(kinds) != 1 or "" in kinds:
         return value
     bare = _AROUND.sub(r"\1", value.strip())
-    if kinds == {(False, True)}:
+    if kinds == {"name"} and not re.search(r"[,;]", bare):  # one name of two words, or two names
+        return value
+    if kinds == {"name"}:
         found = re.split(r"[,;]", bare)
     elif _BETWEEN.search(bare):
         found = _BETWEEN.split(bare)
@@ -157,7 +159,15 @@ def _listed(value: Any, entries: Sequence[Schema]) -> Any:
         found = re.split(r",|\s+", bare)
     else:
         return value
-    return [entry.strip() for entry in found]
+    whole = kinds == {"integer"} and all(map(_WHOLE.fullmatch, found))
+    return [int(entry) if whole else entry.strip() for entry in found]
+
+
+def _kind(entry: Schema) -> str:
+    """Whether the entry of a list is a name, a whole number or any number; nothing for anything else."""
+    if entry.get("title") == "a name" or entry.get("type") == "integer":
+        return "integer" if entry.get("type") == "integer" else "name"
+    return "number" if "number" in entry.get("type", ()) else ""
 
 
 def _table(value: Mapping[str, Any], forms: Sequence[Schema], parts: Mapping[str, Schema]) -> dict[str, Any]:

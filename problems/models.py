@@ -237,14 +237,18 @@ Process = Annotated[
 ]
 
 
-def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]) -> None:
-    """Demand that a mapping names the needed keys, and none that is not known."""
+def check_keys(
+    values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...], *, by: str = ""
+) -> None:
+    """Demand that a mapping names the needed keys, and none that is not known; ``by`` names the table that knows."""
     for key in needed:
         if key not in values:
             raise ValueError(f"{what} of {key!r} is missing; add it")
     for key in values:
         if key not in known:
             named = f", or correct the name: known are {joined(list(dict.fromkeys(known)))}" if known else ""
+            if by:
+                raise ValueError(f"{what} is {key!r}, of which {by} says nothing; add it there{named}")
             raise ValueError(f"{what} is given for {key!r}, which does not occur; leave it out{named}")
 
 

@@ -15,7 +15,8 @@ class Reversible(Givens):
     """Givens in which a letter may be left open; where ``known`` says what comes out, its value is asked for."""
 
     known: Exact | None = Field(
-        default=None, description="What comes out, where the value of the parameter left open is asked for instead."
+        default=None,
+        description="What comes out (of several things the first), where the parameter left open is asked for instead.",
     )
 
     @model_validator(mode="after")

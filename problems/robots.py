@@ -16,7 +16,7 @@ from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, turn
 from rldrill.problems.angles import text as angle_text
 from rldrill.problems.document import Beside, Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact
+from rldrill.problems.exact import Exact, read_fraction
 from rldrill.problems.exact import shown as exact_shown
 from rldrill.problems.expressions import Expression, letter, letters, turning, worked_out, written, written_letter
 from rldrill.problems.family import Givens
@@ -47,6 +47,17 @@ _SEEN: dict[Look, tuple[str, ...]] = {
     "cart-pole": ("θ",),
     "arm": ("l_1", "l_2", "θ_1", "θ_2"),
 }
+
+
+def _in_numbers(value: Any, constants: Mapping[str, Any]) -> Any:
+    """What an expression in constants is worth; anything else as it is."""
+    try:
+        if not isinstance(value, str) or not letters(value):
+            return value
+        numbers = {letter(name): read_fraction(number) for name, number in constants.items()}
+        return str(worked_out(value, numbers, {}, lambda number: number)) if {*letters(value)} <= {*numbers} else value
+    except (ValueError, ZeroDivisionError, KeyError):
+        return value  # read as it stands, it is refused in a sentence of its own
 
 
 class System(Givens):
@@ -88,6 +99,18 @@ class System(Givens):
     )
     story: str = Field(default="", max_length=500, pattern=r"^[^\\]*$", description="A sentence that is printed first.")
     picture: Look | None = Field(default=None, description="What is drawn at the operating point.")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_constants(cls, given: Any) -> Any:
+        """The operating point in numbers, where it is written with the constants: ``m g/2``."""
+        constants = given.get("constants") if isinstance(given, dict) else None
+        if not isinstance(constants, dict):
+            return given
+        points = {name: given[name] for name in ("state", "action") if isinstance(given.get(name), dict)}
+        return given | {
+            name: {key: _in_numbers(value, constants) for key, value in point.items()} for name, point in points.items()
+        }
 
     @model_validator(mode="after")
     def _closed(self) -> Self:

@@ -14,7 +14,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Open, Scalar, StepSize, needed, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction, plain
-from rldrill.problems.models import Name, Named, Names, Steps, check_ends, check_keys
+from rldrill.problems.models import Name, Named, Names, Steps, check_ends
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, not_known, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
@@ -453,8 +453,11 @@ def check_values(values: Mapping[str, object], states: Iterable[str], terminal: 
     Raises:
         ValueError: one is missing, or not 0 for a terminal state.
     """
-    needed = tuple(dict.fromkeys(state for state in states if state not in terminal))
-    check_keys(values, tuple(values), "the value", needed)
+    visited = tuple(states)
+    for state in visited:
+        if state not in terminal and state not in values:
+            last = ", or name it in terminal if the episode ends there" if state == visited[-1] else ""
+            raise ValueError(f"the value of {state!r} is missing; add it{last}")
     check_ends(values, terminal, "the value", CUT_OFF)
 
 

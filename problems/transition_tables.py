@@ -24,6 +24,9 @@ _NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spellin
 _TRUE, _FALSE = ("1", "true", "yes", "1.0"), ("", "0", "false", "no", "0.0")
 #: A decimal comma; 1,000 may be a thousand, and is left to be refused.
 _COMMA = re.compile(r"[+−-]?(?![1-9]\d{0,2},\d{3}(?!\d))\d+,\d+\s*%?")
+#: The columns of a table without a header, and a number that tells one.
+_BARE = ("state", "action", "next", "probability", "reward")
+_BARE_NUMBER = re.compile(r"\s*[+−-]?[\d./,]+\s*%?\s*")
 #: What parts the cells of a Markdown table, what sets them off, and the line below its header.
 _BAR, _MARKUP, _RULE = re.compile(r"(?<!\\)\|"), re.compile(r"[`*$\\]"), re.compile(r"\s*:?-+:?\s*")
 
@@ -44,10 +47,11 @@ def read_transition_table(text: str) -> dict[str, Any]:
             break
         begin += 1
     header = re.sub(r"\([^()]*\)", "", lines[begin]) if len(lines) > begin else ""  # R(s,a) is one column
-    parted = max(",;\t", key=header.count)
+    parted = max(",;\t|", key=header.count)
     rows = csv.reader(lines[begin:], delimiter=parted)
     try:
-        return _table(((begin + rows.line_num, row) for row in rows), commas=parted != ",")
+        numbered = ((begin + rows.line_num, row) for row in rows if not all(map(_RULE.fullmatch, row)))
+        return _table(numbered, commas=parted != ",")
     except csv.Error as error:
         raise ValueError(f"it is not parted into cells ({error}); look for a quote that is not closed") from None
 
@@ -76,7 +80,9 @@ def read_markdown_table(text: str) -> dict[str, Any]:
 def _table(lines: Iterable[tuple[int, list[str]]], *, commas: bool) -> dict[str, Any]:
     """A header and its rows, each with the number of its line; where cells may hold decimal commas, these are read."""
     header, *rows = [(number, row) for number, row in lines if any(cell.strip() for cell in row)] or [(1, [])]
-    columns = _columns(header[1])
+    columns = _bare(header[1]) or _columns(header[1])
+    if _bare(header[1]):
+        rows = [header, *rows]
     read = []
     above: dict[str, str] = {}
     for number, row in rows:
@@ -110,6 +116,13 @@ def read_records(records: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 
 def _plain(name: str) -> str:
     return re.sub(r"[\s_]", "", name).lower()
+
+
+def _bare(row: list[str]) -> dict[int, str]:
+    """The columns of a table without a header, which begins with numbers for probability and reward; else none."""
+    if len(row) != len(_BARE) or {*map(_plain, row)} & {*_NAMED} or not all(map(_BARE_NUMBER.fullmatch, row[-2:])):
+        return {}
+    return dict(enumerate(_BARE))
 
 
 def _columns(header: list[str]) -> dict[int, str]:

@@ -79,6 +79,8 @@ def optimal(folder: Path, name: str, content: str | bytes, mdp: str = "", gamma:
         ("headers.csv", CAR.replace("state,action,next,probability,reward", "s,a,s',T(s#a#s'),R(s#a#s')")
          .replace(",", ";").replace("#", ",")),
         ("car.json", json.dumps(RECORDS)),
+        ("bare.csv", CAR.partition("\n")[2]),
+        ("loose.csv", CAR.replace(",", " | ").replace("\n", "\n--|--|--|--|--\n", 1)),
         ("rows.json", json.dumps([line.split(",") for line in CAR.splitlines()[1:]])),
         ("model.json", json.dumps({"transitions": [line.split(",") for line in CAR.splitlines()[1:]]})),
         ("gymnasium.json", json.dumps({

@@ -105,9 +105,9 @@ class Given(AskedFor):
                 "ahead: the step ahead has no measurement whose probability could be asked for; give it one"
             )
         for event in self.events:
-            check_keys(dict.fromkeys(filter(None, [event.action])), tuple(self.motion) or ("none",), "an action", ())
+            check_keys(dict.fromkeys(filter(None, [event.action])), tuple(self.motion), "an action", (), by="motion")
             read = dict.fromkeys(filter(None, [event.measurement]))
-            check_keys(read, tuple(self.likelihood) or ("none",), "a measurement", ())
+            check_keys(read, tuple(self.likelihood), "a measurement", (), by="likelihood")
         check_predictions(sum(event.action is not None for event in self.events), len(states), "run")
         self._check_run()
         return self

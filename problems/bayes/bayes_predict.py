@@ -66,7 +66,7 @@ class Given(Givens):
     def _fits(self) -> Self:
         check_distribution(self.belief, "belief")
         check_motion(self.motion, tuple(self.belief))
-        check_keys(dict.fromkeys(self.actions), tuple(self.motion), "an action", needed=())
+        check_keys(dict.fromkeys(self.actions), tuple(self.motion), "an action", (), by="motion")
         check_outcome(self.outcome, self.left_open, states=tuple(self.belief))
         check_predictions(len(self.actions), len(self.belief), "actions")
         if self.after > 1 and (self.outcome is None or self.after > len(self.actions)):

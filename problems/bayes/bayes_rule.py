@@ -60,7 +60,7 @@ class Given(Givens):
         check_distribution(self.prior, "prior")
         hypotheses = tuple(self.prior)
         check_likelihood(self.likelihood, hypotheses)
-        check_keys(dict.fromkeys(self.measurements), tuple(self.likelihood), "a measurement", needed=())
+        check_keys(dict.fromkeys(self.measurements), tuple(self.likelihood), "a measurement", (), by="likelihood")
         believed = tuple(hypothesis for hypothesis, chance in self.prior.items() if chance)
         for number, reading in enumerate(self.measurements, 1):
             what = f"measurements[{number}]: {reading!r}"

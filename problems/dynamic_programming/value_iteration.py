@@ -41,8 +41,10 @@ class Swept(AskedFor, Sweeps):
         open_ = self.left_open
         if self.tie is None and open_:
             raise ValueError(f"{open_[0]} is left open, so no action can be called greedy; give numbers, or a tie")
-        if self.tie is not None and (open_ != ("gamma",) or self.sweeps != 1 or self.start or self.action_values):
-            raise ValueError("tie: leave gamma open, and nothing else; it takes one sweep over states, from 0")
+        if self.tie is not None and open_ != ("gamma",):
+            raise ValueError("tie: leave gamma open, and nothing else")
+        if self.tie is not None and (self.sweeps != 1 or self.start or self.action_values):
+            raise ValueError("tie: it is found after one sweep from 0; set sweeps = 1, without start and action_values")
         if self.tie is not None and len(self.mdp.actions.get(self.tie, ())) != 2:
             raise ValueError(f"tie: {self.tie!r} must be a state with two actions")
         return self

@@ -7,6 +7,8 @@ from typing import Any
 from sympy import Expr
 
 from rldrill.problems.exact import PARAMETERS
+from rldrill.problems.mathematics import mathematics, signs
+from rldrill.problems.notations import in_notation
 from rldrill.solutions.diagnosis.alternatives import plain
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.diagnosis.search import Search
@@ -88,7 +90,7 @@ class Names:
         for code, table in tables.values():
             for key, value in table.items() if isinstance(table, Mapping) else ():
                 keys = list(map(str, key if isinstance(key, tuple) else (key,)))
-                for name in (f"{code}({','.join(keys)})", *([f"{code}{key}"] if isinstance(key, int) else [])):
+                for name in (f"{code}({','.join(keys)})", *([_indexed(code, key)] if isinstance(key, int) else [])):
                     found.setdefault(spelled(name), []).extend([value] if plain(value) else [])
         return found
 
@@ -110,6 +112,11 @@ class Names:
                 for name in names_of(left):
                     found.setdefault(name, []).append(value)
         return found
+
+
+def _indexed(code: str, index: int) -> str:
+    """A letter with its index in the notation in use: r₁, which Sutton and Barto write R₁."""
+    return "".join(signs(in_notation(mathematics(f"{code}_{{{index}}}"))))
 
 
 def _given_by(line: Any) -> Iterator[tuple[Expr, Any]]:

@@ -10,7 +10,7 @@ import rldrill
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 
-_OTHERWISE = ("\N{GREEK SMALL LETTER GAMMA}", "lambda", "episode", "V")
+_OTHERWISE = ("S", "\N{GREEK SMALL LETTER GAMMA}", "lambda", "episode", "V")
 RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
 
 
@@ -26,6 +26,13 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
         ("feature-expectations", {"features": {"a": 1}, "trajectories": [["a"]], "gamma": 1}, {"features": {"a": [1]}}),
         ("kalman-filter", {"mean": 0, "covariance": 1, "process": 0, "sensor": 1, "steps": {"z": 1}},
          {"steps": [{"z": 1}]}),
+        # several entries as one text
+        ("eligibility-trace", {"states": "a,b; c", "gamma": 1, "lam": 1, "asked": "0, 1"},
+         {"states": ["a", "b", "c"], "asked": [0, 1]}),
+        ("return-infinite", {"first": "[1, 3/4, 2]", "repeated": "1 -2", "gamma": "1/2"},
+         {"first": [1, "3/4", 2], "repeated": [1, -2]}),
+        ("return-infinite", {"first": "1,3,2", "repeated": "3; 1.5", "gamma": "1/2"},
+         {"first": [1, 3, 2], "repeated": [3, "1.5"]}),
         # one row without the brackets of the list
         ("bandit", {"pulls": ["a", 1], "arms": ["a", "b"]}, {"pulls": [["a", 1]]}),
         # rows and tables as one text, or as tables
@@ -66,6 +73,11 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
         ("kalman-filter", {"mean": [1, 2], "covariance": [[1, 0], [0, 1]], "A": [[1, 1], [0, 1]], "B": [[0], [1]],
                            "C": [[1, 0]], "process": [[0, 0], [0, 0]], "sensor": 1, "steps": [{"u": [3], "z": [4]}]},
          {"mean": [[1], [2]], "steps": [{"u": 3, "z": 4}]}),
+        # matrices and constants of books
+        ("lqr-gain", {"A": "1/2 [1 1; 0 1]", "B": "[0; 3]/2", "R": 1, "S": "-[2 0; 0 4]", "gamma": 1},
+         {"A": [["1/2", "1/2"], [0, "1/2"]], "B": [[0], ["3/2"]], "P": [[-2, 0], [0, -4]]}),
+        ("linearise", {"dynamics": {"v": "u/m - g"}, "constants": {"m": 2, "g": "9.81"}, "state": {"v": 0},
+                       "action": {"u": "m g"}}, {"action": {"u": "19.62"}}),
         # words in another case
         ("bic", {"criterion": "aic", "fitted": {"x": {"log_likelihood": -9, "k": 1},
                                                 "y": {"log_likelihood": -8, "k": 1}}}, {"criterion": "AIC"}),
@@ -83,6 +95,9 @@ def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], 
         ("feature-expectations", {"features": {"a": [1]}, "trajectories": ["a", "a", "a"], "gamma": 1},
          "given.trajectories[1]: must be a list"),
         ("eligibility-trace", {"states": "a b", "gamma": 1, "lam": 1, "asked": [0]}, "given.states: must be a list"),
+        ("return-infinite", {"first": [], "repeated": "2 1/2", "gamma": "1/2"}, "given.repeated: must be a list"),
+        ("bayes-predict", {"belief": {"a": 1, "b": 0}, "motion": {"a": {"a": 1}, "b": {"b": 1}}, "actions": ["go"]},
+         "given.motion: holds states alone; put the name of the action before them, as {go = {a = …}}."),
         ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "lambda": 1, "asked": [0]},
          "given.lambda is not a field"),
         ("eligibility-trace", {"states": ["a"], "discount": 1, "discount_factor": 1, "lam": 1, "asked": [0]},

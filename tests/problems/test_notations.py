@@ -8,6 +8,7 @@ import rldrill
 from rldrill.problems.document import Paragraph
 from rldrill.problems.errors import UsageError
 from rldrill.problems.notations import PLAIN, in_use, notations, used
+from rldrill.quiz.shapes import how_to_type
 from rldrill.render.html import Html
 from rldrill.render.markdown import markdown_text
 from rldrill.render.mathematics.typst import text as typst_text
@@ -225,3 +226,16 @@ def test_an_unknown_notation_is_said() -> None:
         used("bertsekas"),
     ):
         pass
+
+
+def test_entries_are_asked_for_and_read_by_their_names_in_the_notation() -> None:
+    # G₄ = 4, G₃ = −4 + 4/2, G₂ = 8 − 2/2, G₁ = −3 + 7/2, G₀ = −2 + 1/4; R₁ is the first reward here.
+    given = {"rewards": [-2, -3, 8, -4, 4], "gamma": "1/2"}
+    with used("sutton-barto"):
+        exercise = rldrill.read({"family": "return", "given": given})
+        assert how_to_type(exercise.parts[0].kind).startswith("G₀, G₁, G₂, G₃, G₄ in this order")
+        assert exercise.check("G4 = 4, G3 = -2, G2 = 7, G1 = 1/2, G0 = -7/4")
+        assert exercise.check("G4 = 4, G3 = -2, G2 = 7, G1 = 1/2, G0 = 7/4").wrong_cells == ("entry 1",)
+        first, second = exercise.follow(["R1 = -2", "G1 = 1/2"]).lines
+        assert (first.standing, second.standing) == ("right", "right")
+    assert rldrill.read({"family": "return", "given": given}).check("R4 = 4, R3 = -2, R2 = 7, R1 = 1/2, R0 = -7/4")
