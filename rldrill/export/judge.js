@@ -178,11 +178,11 @@ const Judge = (() => {
     return said.includes(",") ? refuse("There is a comma that is not within a number; write one number.") : said;
   };
 
-  const decimalValue = (text) => {
+  const decimalValue = (text, longest) => {
     const [mantissa, exponent = "0"] = text.toLowerCase().split("e");
     const [before, after = ""] = mantissa.split(".");
     const shift = Number(exponent) - after.length;
-    if (Math.abs(shift) > 300 || text.length > 40) refuse("The number is too long.");
+    if (Math.abs(shift) > 300 || text.length > longest) refuse("The number is too long.");
     const digits = BigInt(before + after || "0");
     return shift >= 0 ? [digits * 10n ** BigInt(shift), 1n] : quotient(digits, 10n ** BigInt(-shift));
   };
@@ -190,8 +190,10 @@ const Judge = (() => {
 
   // Sums, products and powers; a sign left out between factors is read only where it can mean one thing.
   class Parser {
-    constructor(text, parameters) {
+    // Keys may be as long as they are; of what is typed no number may.
+    constructor(text, parameters, longest = Infinity) {
       this.tokens = tokens(text);
+      this.longest = longest;
       this.next = 0;
       this.parameters = parameters;
       this.decimal = false;
@@ -274,7 +276,7 @@ const Judge = (() => {
             this.decimal = true;
             if (this.token.kind === "(") refuse("Write digits that repeat as a fraction.");
           }
-          const value = decimalValue(token.value);
+          const value = decimalValue(token.value, this.longest);
           return () => value;
         }
         case "vulgar": {
@@ -336,7 +338,7 @@ const Judge = (() => {
     const forms = text.split(/[=≈:]/u).map((form) => form.trim());
     const one = (form) => {
       const said = comma ? pointed(form) : form;
-      const parser = new Parser(said, parameters);
+      const parser = new Parser(said, parameters, 40);
       const value = parser.all();
       POINTS.slice(0, parameters.length ? 2 : 1).forEach((_, number) => float(value(pointOf(number))));
       return { value, decimal: parser.decimal, said };

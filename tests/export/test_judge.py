@@ -300,6 +300,17 @@ def test_what_is_too_large_is_not_right(typed: str) -> None:
     assert judged(one, [typed])["outcome"] == "unreadable"
 
 
+def test_keys_are_as_long_as_they_are() -> None:
+    # MacKay's coin, 140 heads of 250: 140!·110!/251! = 2.635·10⁻⁷⁶ from a uniform prior; fair, 2⁻²⁵⁰ = 5.527·10⁻⁷⁶.
+    tossed = {"heads": 140, "tails": 110, "prior": {"bent": "1/2", "fair": "1/2"}}
+    given = tossed | {"models": {"bent": {"a": 1, "b": 1}, "fair": {"theta": "1/2"}}}
+    exercise = rldrill.read({"family": "model-comparison", "given": given})
+    of_page = task(exercise, exercise.parts[0])
+    assert judged(of_page, ["2.635e-76", "5.527e-76"])["outcome"] == "right"
+    assert judged(of_page, ["2.635e-76", "5.53e-75"])["outcome"] == "wrong"
+    assert judged(of_page, ["1" * 41, "1"])["outcome"] == "unreadable"
+
+
 def test_a_typical_mistake_is_told() -> None:
     exercise = rldrill.load("td-zero/2/234")
     wrong = exercise.diagnosing.wrong_answers("a", 1)[0]
