@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from datetime import date
+from typing import Any
 
 from msgspec import Struct
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
@@ -17,6 +18,8 @@ from rldrill.render.terminal import words
 #: How wide a picture of it is, in columns.
 WIDTH = 92
 _BAR = 20
+#: In fewer columns there are lines instead of columns.
+_NARROW = 50
 #: So many weeks are on the calendar, and so many of the last days have a line of their own.
 _WEEKS, _LINES = 12, 7
 _SHADES, _ASCII = "·░▒▓█", ".-+x#"
@@ -27,7 +30,7 @@ _DRILLS = 3
 
 
 def shown(progress: Progress) -> RenderableType:
-    """The whole of it, for a terminal of any width from 60 columns."""
+    """The whole of it, for a terminal of any width."""
     if not progress.answers:
         return words("There are no answers yet: 'rldrill quiz' asks the first questions.")
     return Group(*(item for section in _sections(progress) for item in (*section, Text(""))))
@@ -58,39 +61,52 @@ def _headed(text: str) -> RenderableType:
     return words((text, "bold"))
 
 
-def _plain_table(*right: bool, bar: int | None = None) -> Table:
-    table = Table.grid(padding=(0, 2))
-    for place, each in enumerate(right):
-        # Where it is narrow, the bars become shorter, and nothing else.
-        table.add_column(
-            justify="right" if each else "left", no_wrap=place != bar, max_width=_BAR if place == bar else None
-        )
-    return table
+class _Rows(Struct, frozen=True):
+    """Texts in columns, flush right in some of them, and shares as bars; in a narrow window a line for each row."""
+
+    rows: tuple[tuple[str | float, ...], ...]
+    right: frozenset[int]
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        if options.max_width < _NARROW:
+            yield from (words(", ".join(cell for cell in row if isinstance(cell, str) and cell)) for row in self.rows)
+            return
+        table = Table.grid(padding=(0, 2))
+        for place, cell in enumerate(self.rows[0]):
+            # Where there is little room, the bars become shorter, and nothing else.
+            is_bar = isinstance(cell, float)
+            justify: Any = "right" if place in self.right else "left"
+            table.add_column(justify=justify, no_wrap=not is_bar, max_width=_BAR if is_bar else None)
+        for row in self.rows:
+            table.add_row(*(words(cell) if isinstance(cell, str) else _bar(cell) for cell in row))
+        yield table
 
 
 def _bar(share: float) -> ProgressBar:
     return ProgressBar(total=1.0, completed=share, complete_style="green", finished_style="green")
 
 
-def _shares(progress: Progress) -> Table:
-    table = _plain_table(False, False, True, True, True, bar=1)
-    for each in progress.shares:
-        time = "" if each.seconds is None else _time(each.seconds)
-        of = f"{each.seen}/{each.of} seen"
-        table.add_row(words(each.name), _bar(each.mastery), f"{round(100 * each.mastery)} %", of, time)
-    return table
+def _shares(progress: Progress) -> _Rows:
+    return _Rows(
+        tuple(
+            (each.name, float(each.mastery), f"{round(100 * each.mastery)} %", f"{each.seen}/{each.of} seen",
+             "" if each.seconds is None else _time(each.seconds))
+            for each in progress.shares
+        ),
+        frozenset((2, 3, 4)),
+    )  # fmt: skip
 
 
-def _days(days: Sequence[Day]) -> Table:
-    table = _plain_table(False, False, True, True, True, bar=1)
+def _days(days: Sequence[Day]) -> _Rows:
     written = "%a %d %b" if len({day.day.year for day in days}) == 1 else "%a %d %b %Y"
-    for day in days:
-        share = day.right / day.parts
-        answers = counted(day.answers, "answer")
-        table.add_row(
-            f"{day.day:{written}}", _bar(share), f"{round(100 * share)} %", answers, f"half within {_time(day.seconds)}"
-        )
-    return table
+    return _Rows(
+        tuple(
+            (f"{day.day:{written}}", day.right / day.parts, f"{round(100 * day.right / day.parts)} %",
+             counted(day.answers, "answer"), f"half within {_time(day.seconds)}")
+            for day in days
+        ),
+        frozenset((2, 3, 4)),
+    )  # fmt: skip
 
 
 class _Calendar(Struct, frozen=True):
@@ -113,10 +129,7 @@ def _shade(shades: str, answers: int) -> str:
 
 
 def _mistakes(mistakes: tuple[Mistake, ...]) -> Iterator[RenderableType]:
-    table = _plain_table(True, False, False)
-    for each in mistakes:
-        table.add_row(f"{each.times} ×", words(called(each.name)), words((each.family, "dim")))
-    yield table
+    yield _Rows(tuple((f"{each.times} ×", called(each.name), each.family) for each in mistakes), frozenset((0,)))
     yield words(("To drill one of them alone:", "dim"))
     for name in dict.fromkeys(each.name for each in mistakes[:_DRILLS]):
         yield Text(f"  rldrill quiz --mistake {name}", no_wrap=True)

@@ -505,5 +505,5 @@ def variant(exercise: Exercise) -> Exercise:
     """Another problem of the same family and level; a problem from outside gets one of level 2."""
     identity = exercise.problem.identity
     if identity is None:
-        return draw(exercise.problem.family.name, 2, 0)
+        return draw(exercise.problem.family.name, 2, fresh_seed())
     return draw(identity.family, identity.level, (identity.seed + 1) % MAX_SEED)

@@ -88,6 +88,15 @@ def test_where_it_is_narrow_the_bars_are_shorter_and_nothing_else() -> None:
         assert piece in text
 
 
+def test_where_it_is_narrower_still_a_row_is_a_line_and_keeps_its_numbers() -> None:
+    screen = Console(width=40, record=True, markup=False, highlight=False)
+    groups = {"function-approximation": GROUPS["bellman"], "temporal-difference": GROUPS["td"]}
+    screen.print(shown(progress(tuple(log()), groups, NOW)))
+    text = " ".join(screen.export_text().split())
+    for piece in ("function-approximation, 47 %, 1/2 seen, 30 s", "1 ×, forgot gamma", "half within"):
+        assert piece in text
+
+
 def test_a_database_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     (tmp_path / "history.db").write_text("a shopping list " * 100)
     result = CliRunner().invoke(app, ["stats"], env={"RLDRILL_HOME": str(tmp_path)})
