@@ -72,7 +72,7 @@ class _Rows(Struct, frozen=True):
             yield from (words(", ".join(cell for cell in row if isinstance(cell, str) and cell)) for row in self.rows)
             return
         table = Table.grid(padding=(0, 2))
-        for place, cell in enumerate(self.rows[0]):
+        for place, cell in enumerate(self.rows[0] if self.rows else ()):
             # Where there is little room, the bars become shorter, and nothing else.
             is_bar = isinstance(cell, float)
             justify: Any = "right" if place in self.right else "left"
