@@ -65,7 +65,7 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 from rldrill.solutions.ratios import keeps_the_worse
-from rldrill.solutions.sheet.bellman import OWN_VALUE_DISCOUNTED
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OWN_VALUE_DISCOUNTED
 
 _NABLA = Script(Glyph("∇", "variable"), variable("θ"))
 
@@ -329,6 +329,7 @@ with evaluate(False):
         hint="Reward plus the discounted value of the next state, minus the value of the state that is left.",
         misread={
             NEXT_VALUE_FORGOTTEN: r(t + 1) - V(S(t)),
+            FORGOT_GAMMA: r(t + 1) + V(S(t + 1)) - V(S(t)),
             OWN_VALUE_DISCOUNTED: r(t + 1) + V(S(t + 1)) - gamma * V(S(t)),
         },
     )

@@ -36,7 +36,7 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OWN_VALUE_DISCOUNTED
-from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
+from rldrill.solutions.sheet.fundamentals import FIRST_DISCOUNTED, LINEAR_DISCOUNT, STEP_UNDISCOUNTED, UNDISCOUNTED
 
 #: The λ-return, TD errors, eligibility traces, the count of visits, the visits and the weights of their returns.
 Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
@@ -185,6 +185,9 @@ with evaluate(False):
             BOOTSTRAP_AT_START: _REWARDS + gamma**n * V(S(t)),
             BOOTSTRAP_ONE_STATE_SHORT: _REWARDS + gamma**n * V(S(t + n - 1)),
             FROM_TIME_0: SumOver(gamma**i * r(1 + i), i, Counting(0, n - 1)) + gamma**n * V(S(n)),
+            UNDISCOUNTED: SumOver(r(t + 1 + i), i, Counting(0, n - 1)) + V(S(t + n)),
+            FIRST_DISCOUNTED: gamma * _REWARDS + gamma ** (n + 1) * V(S(t + n)),
+            LINEAR_DISCOUNT: SumOver(gamma * i * r(t + 1 + i), i, Counting(0, n - 1)) + gamma * n * V(S(t + n)),
         },
     )
 
@@ -439,6 +442,9 @@ with evaluate(False):
         hint="Average the one-step targets after all visits of the state; begin with states that only lead to the end.",
         note="These are the values of the most likely Markov process behind the data (the certainty equivalence).",
         place=Place.BEYOND,
+        misread={
+            FORGOT_GAMMA: Pow(N(s), -1) * SumOver(r(t + 1) + V(S(t + 1)), t, Visits(s)),
+        },
     )
 
 

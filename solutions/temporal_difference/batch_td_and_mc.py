@@ -9,7 +9,8 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import BATCH_MONTE_CARLO, BATCH_TD
 from rldrill.solutions.work import Work
 
@@ -159,6 +160,8 @@ MISCONCEPTIONS = (
     monte_carlo_ahead.where_it_shows(),
     other_visits,
     times_ignored.where_it_shows(),
+    RECURSION_UNDISCOUNTED.where_it_shows(),
+    FORGOT_GAMMA.where_it_shows(),
 )
 
 

@@ -11,7 +11,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
-from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED
+from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED, UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     AVERAGED_ALIKE,
     CLOSING_LIKE_OTHERS,
@@ -102,6 +102,7 @@ MISCONCEPTIONS = (
     CLOSING_LIKE_OTHERS,
     POWER_ONE_LATE,
     STEP_UNDISCOUNTED,
+    UNDISCOUNTED.where_it_shows(),
     LAMBDA_EXCHANGED.where_it_shows(),
     AVERAGED_ALIKE.where_it_shows(),
     value_after_the_end.where_it_shows(),
