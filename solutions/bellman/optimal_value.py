@@ -282,7 +282,7 @@ MISCONCEPTIONS = (
     most_paid, first_actions, at_random, exceeds, value_kept.where_it_shows(), Q_FORGOT_GAMMA,
     replace(OPTIMAL_Q_BY_REWARD.where_it_shows(), when=lambda given: isinstance(given, Optimal)),
     end_paid, SMALLEST_Q.where_it_shows(), Q_REWARD_UNWEIGHTED.where_it_shows(), FORGOT_GAMMA.where_it_shows(),
-    replace(OWN_VALUE, when=lambda given: isinstance(given, Optimal)),
+    OWN_VALUE,
 )  # fmt: skip
 
 

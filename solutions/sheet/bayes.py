@@ -162,12 +162,10 @@ with evaluate(False):
     BASE_RATE_IGNORED = Misconception(
         "base-rate-ignored",
         "The prior counts: each likelihood is weighted by the probability of its hypothesis.",
-        when=lambda given: not given.prior_found,
     )
     LIKELIHOOD_FOR_POSTERIOR = Misconception(
         "likelihood-for-posterior",
         "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
-        when=lambda given: not given.prior_found,
     )
     MEASURED_TWICE = Misconception(
         "measured-twice", "Every measurement counts once: those before are in the belief already."

@@ -274,7 +274,6 @@ with evaluate(False):
     FEATURES_ALONE = Misconception(
         "features-alone",
         "The features expected under the policy are subtracted: they come from the softmax's denominator.",
-        when=lambda given: given.component is None,
     )
     EXPECTED_ADDED = Misconception(
         "expected-features-added",

@@ -151,12 +151,10 @@ with evaluate(False):
     BOOTSTRAP_UNDISCOUNTED = Misconception(
         "bootstrap-not-discounted",
         "The value at the end of the n steps is discounted too, by γⁿ.",
-        when=_given("gamma"),
     )
     BOOTSTRAP_ONE_SHORT = Misconception(
         "bootstrap-one-power-short",
         "The last reward has the factor γⁿ⁻¹; the value after it is one step later, so it has γⁿ.",
-        when=_given("gamma"),
     )
     ONE_REWARD_TOO_MANY = Misconception(
         "one-reward-too-many", "n steps earn n rewards; the next reward is already inside the value."
@@ -207,12 +205,8 @@ with evaluate(False):
     _DECAYED = gamma * lam * e(s)
     _VISIT = Visited(s, S(t))
 
-    DECAY_WITHOUT_GAMMA = Misconception(
-        "decay-without-gamma", "Traces decay by γλ, not by λ alone.", when=_given("gamma")
-    )
-    DECAY_WITHOUT_LAMBDA = Misconception(
-        "decay-without-lambda", "Traces decay by γλ, not by γ alone.", when=_given("lambda")
-    )
+    DECAY_WITHOUT_GAMMA = Misconception("decay-without-gamma", "Traces decay by γλ, not by λ alone.")
+    DECAY_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by γλ, not by γ alone.")
     REPLACING = Misconception(
         "replacing-trace",
         "Accumulating traces add 1 to what is left of the trace; only replacing traces are set to 1.",
