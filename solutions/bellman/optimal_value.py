@@ -94,7 +94,7 @@ def _least(given: Sought, work: Work, known: Mapping[str, Any], policy: dict[str
     """The reward with which its action is worth as much as the best policy without it, found from a first policy."""
     mdp, row = given.mdp, given.row
     work.say(f"Which policy is optimal if {row.action} is not taken in {row.state}?")
-    last = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy)
+    last = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy, "the best actions so far")
     value_of_action = of_round(last.number)[2]
     others = [pair for pair in mdp.pairs if last.policy[pair[0]] != pair[1]]
     work.say(f"What are the other actions worth if $π_{{{last.number}}}$ is followed after them?")
@@ -116,7 +116,7 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     """Policy iteration, its last values put into the optimality equation, and what follows."""
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
-        last = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)))
+        last = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)), "what earns most in two steps")
         values, of = last.values, f"$π_{{{last.number}}}$"
         work.say(f"Is another action better than that of {of}? Suppose that the values of {of} are $V^*$:")
         Q = _worths(given, work, values)
@@ -161,11 +161,11 @@ class _Last(NamedTuple):
     values: dict[str, Value]
 
 
-def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> _Last:
-    """Policy iteration from a policy to the one that it ends with."""
+def _iterated(given: Optimal, work: Work, policy: dict[str, str], why: str) -> _Last:
+    """Policy iteration from a policy, which is taken for a reason, to the one that it ends with."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    work.say(f"Start with the guess $π_0$: {_told(policy)}.")
+    work.say(f"Start with the guess $π_0$, {why}: {_told(policy)}.")
     number, most = 0, prod(map(len, mdp.actions.values()))
     while number < most:
         evaluate, improve, _ = of_round(number)

@@ -92,6 +92,15 @@ with evaluate(False):
         "closing-weight-forgotten",
         "The full return stands for all longer n-step returns too, so its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
     )
+    #: The same where a run is cut off, and the longest n-step return takes the place of the full one.
+    FORGOT_LONGEST = Misconception(
+        FORGOT_CLOSING.name,
+        "The sum does not stop before the end: the longest n-step return has the weight λᵀ⁻ᵗ⁻¹.",
+    )
+    LONGEST_LIKE_OTHERS = Misconception(
+        CLOSING_LIKE_OTHERS.name,
+        "The longest n-step return gets all the weight that is left: its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
+    )
     POWER_ONE_LATE = Misconception(
         "power-one-late",
         "The n-step return has the power λⁿ⁻¹: the one-step return is not weakened by λ.",
@@ -120,8 +129,8 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             FORGOT_ONE_MINUS_LAMBDA: _WEIGHTED + _CLOSING_CUT_OFF,
-            FORGOT_CLOSING: (1 - lam) * _WEIGHTED,
-            CLOSING_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING_CUT_OFF,
+            FORGOT_LONGEST: (1 - lam) * _WEIGHTED,
+            LONGEST_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING_CUT_OFF,
             POWER_ONE_LATE: (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING_CUT_OFF,
             LAMBDA_EXCHANGED: _EXCHANGED + (1 - lam) ** (T - t - 1) * Gn(t, T - t),
             AVERAGED_ALIKE: (_ALL_OF_THEM + Gn(t, T - t)) / (T - t),

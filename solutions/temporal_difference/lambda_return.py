@@ -16,10 +16,12 @@ from rldrill.solutions.sheet.temporal_difference import (
     AVERAGED_ALIKE,
     CLOSING_LIKE_OTHERS,
     FORGOT_CLOSING,
+    FORGOT_LONGEST,
     FORGOT_ONE_MINUS_LAMBDA,
     LAMBDA_EXCHANGED,
     LAMBDA_RETURN,
     LAMBDA_RETURN_CUT_OFF,
+    LONGEST_LIKE_OTHERS,
     POWER_ONE_LATE,
 )
 from rldrill.solutions.temporal_difference.n_step_return import n_step, worth_as_before
@@ -100,6 +102,8 @@ MISCONCEPTIONS = (
     FORGOT_ONE_MINUS_LAMBDA,
     FORGOT_CLOSING,
     CLOSING_LIKE_OTHERS,
+    FORGOT_LONGEST,
+    LONGEST_LIKE_OTHERS,
     POWER_ONE_LATE,
     STEP_UNDISCOUNTED,
     UNDISCOUNTED.where_it_shows(),
