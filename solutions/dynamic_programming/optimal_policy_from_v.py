@@ -129,11 +129,11 @@ def value_kept(given: Given, work: Work) -> None:
 
 
 MISCONCEPTIONS = (
+    FORGOT_GAMMA.where_it_shows(),
     GREEDY_BY_VALUE,
     GREEDY_BY_REWARD,
     SMALLEST_Q,
     Q_FORGOT_GAMMA,
-    FORGOT_GAMMA.where_it_shows(),
     OWN_VALUE,
     value_kept.where_it_shows(),
 )

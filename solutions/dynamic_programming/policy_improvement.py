@@ -66,11 +66,11 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
 
 
 MISCONCEPTIONS = (
+    FORGOT_GAMMA.where_it_shows(),
     IMPROVEMENT_BY_VALUE,
     IMPROVEMENT_BY_REWARD,
     one_sweep(solve),
     Q_FORGOT_GAMMA,
-    FORGOT_GAMMA.where_it_shows(),
     SMALLEST_Q.where_it_shows(),
 )
 
