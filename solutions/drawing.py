@@ -103,10 +103,7 @@ def flaws(solution: Solution) -> Iterator[str]:
     if level in MOST_ELIMINATED and _eliminated(solution) > MOST_ELIMINATED[level]:
         yield "a linear system is solved with numbers that are too large"
     for misconception in solution.applicable:
-        if misconception.may_hide:
-            continue
-        answers = solution.answers_with(misconception)
-        if answers is not None and not solution.tells_apart(answers):
+        if solution.hides(misconception):
             yield f"{misconception.name} gives the right answer"
 
 

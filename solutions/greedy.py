@@ -26,6 +26,8 @@ def epsilon_greedy(
     epsilon: Value,
     label: str | None = None,
     only: Sequence[str] = (),
+    *,
+    again: bool = False,
 ) -> dict[str, Value]:
     """The probability of every action of a state; tied best actions share that of the greedy choice.
 
@@ -36,6 +38,7 @@ def epsilon_greedy(
         epsilon: the exploration rate.
         label: when it is, where the policy changes with the values.
         only: the actions whose probabilities are needed; all if empty.
+        again: whether it is said already which actions are best.
 
     Raises:
         NoSolution: which action is best depends on what is left open.
@@ -44,9 +47,9 @@ def epsilon_greedy(
     formula = EPSILON_GREEDY if len(best) == 1 else EPSILON_GREEDY_TIED
     known = {"epsilon": epsilon, "actions": {state: tuple(values)}, "best": {state: best[0]}, "greedy": {state: best}}
     size = f'$|A("{state}")| = {len(values)}$'
-    if len(best) == 1:
+    if not again and len(best) == 1:
         work.say(f'The greedy action is $a^*("{state}") = "{best[0]}"$, one of {size} actions.')
-    else:
+    elif not again:
         work.say(f'The best actions are {joined([*best])}: $|A^*("{state}")| = {len(best)}$ of {size}.')
     return {action: work.step(formula, s=state, a=action, label=label, **known) for action in only or values}
 

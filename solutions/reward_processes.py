@@ -6,7 +6,7 @@ from typing import Any
 from msgspec.structs import replace
 from sympy import Expr, Mul, evaluate
 
-from rldrill.problems.mathematics import Math, Script, mathematics, row, variable
+from rldrill.problems.mathematics import Math, Script, mathematics, variable
 from rldrill.problems.models import Model
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import (
@@ -19,6 +19,7 @@ from rldrill.solutions.formula.notation import (
     V,
     Vpi,
     a,
+    beside,
     letter,
     pi,
     quantity,
@@ -30,7 +31,7 @@ def _without_action(of: type[Quantity]) -> type[Quantity]:
     """P or R of a transition: the one action is looked up, but not written."""
 
     def layout(here: Math, _: Math, after: Math) -> Math:
-        return Script(variable(of.code), row(here, after))
+        return Script(variable(of.code), beside(here, after))
 
     return quantity(of.code, layout)
 

@@ -189,8 +189,19 @@ class Solution(Struct, frozen=True, dict=True):
         self, misconception: Misconception, carried: Mapping[str, Any] | None = None
     ) -> Mapping[str, Any] | None:
         """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
-        if carried:
-            return self._made(misconception, carried)
+        made = self._made(misconception, carried) if carried else self._all_along(misconception)
+        if made is None and not misconception.is_slip and (sound := self._found_first):
+            # The letter was found without the mistake, which is made from the next part on.
+            later = self._made(misconception, carried or {}, sound)
+            made = later if later is not None and self.tells_apart(later) else None
+        return made
+
+    def hides(self, misconception: Misconception) -> bool:
+        """Whether a mistake that is made all along gives the right answers."""
+        made = None if misconception.may_hide else self._all_along(misconception)
+        return made is not None and not self.tells_apart(made)
+
+    def _all_along(self, misconception: Misconception) -> Mapping[str, Any] | None:
         key = misconception.key
         if key not in self._mistaken:
             self._mistaken[key] = self._made(misconception, {})
@@ -198,14 +209,22 @@ class Solution(Struct, frozen=True, dict=True):
 
     @cached_property
     def _mistaken(self) -> dict[tuple[str, str], Mapping[str, Any] | None]:
-        """What the mistakes give that somebody has asked for, by their keys."""
+        """What the mistakes give all along that somebody has asked for, by their keys."""
         return {}
 
-    def _made(self, misconception: Misconception, carried: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    @cached_property
+    def _found_first(self) -> int:
+        """How many parts there are up to the one that asks for a letter which the others are answered with, or 0."""
+        labels = list(self.answers)
+        return next((number for number, label in enumerate(labels[:-1], 1) if label in self.sought), 0)
+
+    def _made(
+        self, misconception: Misconception, carried: Mapping[str, Any], sound: int = 0
+    ) -> Mapping[str, Any] | None:
         same: Sequence[Any] = () if carried or misconception.is_slip else self.work.values
         right = () if carried else tuple(self.answers.values())
         try:
-            made = run(self.problem, misconception, carried, same, right).answers
+            made = run(self.problem, misconception, carried, same, right, sound).answers
             hidden = misconception.may_hide and not carried and not self.tells_apart(made)
         except (NoSolution, NotGiven, NotReal):  # such as the logarithm of nothing, which nobody writes down
             return None
@@ -232,6 +251,7 @@ def run(
     carried: Mapping[str, Any] | None = None,
     same: Sequence[Any] = (),
     right: Sequence[Any] = (),
+    sound: int = 0,
 ) -> Work:
     """Let the family's solver work, with a mistake or somebody's earlier answers if given.
 
@@ -241,13 +261,14 @@ def run(
         carried: the earlier answers.
         same: what comes out on the right way, up to the formula that is misread.
         right: the answers of the right way.
+        sound: how many parts are answered before formulas are misread.
 
     Raises:
         NoSolution: the problem has no answer.
         NotGiven: the mistake asks for something that the problem does not give.
         BrokenFamily: the right way does, or it answers other parts than those that are asked.
     """
-    work = Work(misconception, carried or {}, same, right)
+    work = Work(misconception, carried or {}, same, right, sound)
     slipping = None if misconception is None else misconception.solve
     try:
         (slipping or solver(problem.family).solve)(problem.given, work)

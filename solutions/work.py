@@ -251,12 +251,14 @@ class Work:
         same: what came out on the right way, application by application: up to the formula that is misread, the same
             comes out here.
         right: for a slip, the answers of the right way, where they are known.
+        sound: how many parts are answered before formulas are misread.
     """
 
     misconception: Misconception | None = None
     carried: Mapping[str, Any] = field(default_factory=dict)
     same: Sequence[Any] = ()
     right: Sequence[Any] = ()
+    sound: int = 0
     values: list[Any] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     answers: dict[str, Any] = field(default_factory=dict)
@@ -266,7 +268,7 @@ class Work:
 
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
-        misread = self.misconception in formula.misread
+        misread = len(self.answers) >= self.sound and self.misconception in formula.misread
         if misread:
             self.same = ()
         return misread
@@ -278,7 +280,7 @@ class Work:
             self.read[formula] = None
             return formula.right
         misread = formula.readings.get(mistake.key)
-        if misread is None:
+        if misread is None or len(self.answers) < self.sound:
             return formula.right
         self.same = ()
         return misread

@@ -144,7 +144,7 @@ def a_point_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
         ('"sweep.toml" = {a = "4, 1.5", b = {rim = "drill", slope = "drive"}}', "b", "right", 1),
         # With V(rim) = −10: at rim 5 + 1/2 · 3/2 beats −3 − 5, and at slope 0 beats 2 + 1/2 · (−10).
         ('"sweep.toml" = {a = "-10, 1.5", b = "drill, drill"}', "b", "follow-through", 1),
-        ('"sweep.toml" = {a = "4, 1.5", b = "drive, drill"}', "b", "wrong", 0),
+        ('"sweep.toml" = {a = "4, 1.5", b = "drive, drill"}', "b", "misconception", 0),
         ('"gain.toml" = "[16/17, -8/17]"', "a", "right", 1),
         ('"gain.toml" = ["16/17", "-8/17"]', "a", "right", 1),
         ('"gain.toml" = {a = [["16/17", "-8/17"]]}', "a", "right", 1),

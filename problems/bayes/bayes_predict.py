@@ -30,7 +30,7 @@ from rldrill.problems.scenes import SCENES, draw_motion
 
 TITLE = "Belief after an action"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):
@@ -99,7 +99,9 @@ def draw(level: int, rng: Draws) -> Given:
         beliefs = [start]
         for action in actions:
             beliefs.append(predicted(beliefs[-1], motion[action], q))
-        if max(chance.denominator for each in beliefs for chance in each.values()) <= _FINEST[level]:
+        finest = max(chance.denominator for each in beliefs for chance in each.values())
+        changing = len({tuple(each.values()) for each in beliefs}) == len(beliefs)
+        if finest <= _FINEST[level] and changing:
             break
     state = rng.choice(states)
     after = 2 if left_open == "belief" else 1  # in two actions with the same letter it would be squared

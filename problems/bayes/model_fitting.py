@@ -1,5 +1,6 @@
 """The parameters of a coin, a normal distribution or a line, by maximum likelihood and maximum a posteriori."""
 
+from collections.abc import Sequence
 from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -13,7 +14,7 @@ from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Model fitting"
 SOURCE = "Bishop 2006, sections 1.2.4, 2.3.6 and 3.3.1"
-REVISION = 4
+REVISION = 5
 
 
 class Coin(Givens):
@@ -123,9 +124,9 @@ def draw(level: int, rng: Draws) -> Given:
         if rng.chance(Fraction(1, 3)):
             return Given(line=Line(points=_points(rng, 3 + rng.below(2))))
         values = _balanced(rng, 3 + rng.below(2), 4, 9)
-        prior = Prior(mean=rng.whole(4, 9), variance=rng.fraction("1", "2", "1/2"), noise=rng.whole(1, 3))
+        prior = Prior(mean=rng.whole(4, 9), **_variances(rng, ("1", "2", "1/2"), 3))
         return Given(sample=Sample(values=values, prior=prior if rng.chance(Fraction(3, 4)) else None))
-    prior = Prior(variance=rng.fraction("1", "2", "1/2", "1/4"), noise=rng.whole(1, 6))
+    prior = Prior(**_variances(rng, ("1", "2", "1/2", "1/4"), 6))
     kind = rng.choice(("line", "sample found", "line found"))
     if kind == "line":
         return Given(line=Line(points=_points(rng, 4 + rng.below(2)), prior=prior))
@@ -140,6 +141,12 @@ def draw(level: int, rng: Draws) -> Given:
     share = rng.fraction("2/5", "1/3", "1/4", "2/3", "3/5", "1/5")  # of the prior
     found = Prior(mean=mean, variance=Parameter("w"), noise=prior.noise, estimate=share * mean + (1 - share) * average)
     return Given(sample=Sample(values=values, prior=found))
+
+
+def _variances(rng: Draws, of_prior: Sequence[str], most: int) -> dict[str, Fraction]:
+    """The variances of a prior and of the noise, which do not cancel."""
+    variance = rng.fraction(*of_prior)
+    return {"variance": variance, "noise": rng.fitting(1, most, lambda noise: noise != variance)}
 
 
 def _points(rng: Draws, size: int) -> tuple[tuple[Fraction, Fraction], ...]:

@@ -18,7 +18,7 @@ from rldrill.problems.valued import discounted, draw_averaging, draw_paying, dra
 
 TITLE = "Action values from state values"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Lookahead):
@@ -54,6 +54,9 @@ def draw(level: int, rng: Draws) -> Given:
         opened, left, _ = draw_letter(rng, rows, gamma, ("x", "x", "p", "gamma"))
         if any(old.probability == Fraction(1, 2) != new.probability for old, new in zip(rows, opened, strict=True)):
             return draw(level, rng)  # a half would be guessed
+        chances = [row for row in opened if isinstance(row.probability, Parameter)]
+        if any(Fraction(row.reward) + gamma * values.get(row.next, Fraction(0)) == 0 for row in chances):
+            return draw(level, rng)  # a branch that is worth nothing would not be missed
         return Given(dynamics=Dynamics(transitions=tuple(opened)), values=_named(values, rows), gamma=left, find=True)
     if level == 2 and rng.chance(Fraction(1, 2)) and (worths := draw_averaging(rng, 2, (4, 5), values[state])[1]):
         shape, ahead = Shape(states=4, actions=2, branches=2), discounted(values, gamma)

@@ -27,7 +27,7 @@ from rldrill.problems.valued import discounted, draw_averaging, draw_paying, dra
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 6
+REVISION = 7
 
 
 class Given(Lookahead):
@@ -73,7 +73,8 @@ def draw(level: int, rng: Draws) -> Given:
             ]
             for row in draw_outcomes(rng, state, action, targets, shape)
         ]
-    chances = rng.split(len(actions), (2, 4) if len(actions) == 2 else (4,))
+    # Of two actions neither is as probable as the other: which has which probability would not show.
+    chances = rng.shuffled((Fraction(1, 4), Fraction(3, 4))) if len(actions) == 2 else rng.split(3, (4,))
     return Given(
         dynamics=Dynamics(transitions=tuple(rows)),
         policy={state: dict(zip(actions, chances, strict=True))},

@@ -15,7 +15,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "MAML step"
 SOURCE = "Finn, Abbeel & Levine 2017, section 2.2"
-REVISION = 7
+REVISION = 8
 
 
 class Task(NamedTuple):
@@ -89,12 +89,16 @@ def _drawn_halved(rng: Draws) -> tuple[Fraction, tuple[Task, ...], Fraction]:
 
 
 def _drawn(rng: Draws, count: int) -> tuple[Fraction, tuple[Task, ...], Fraction]:
-    """No two tasks alike, none that is learnt in one step, so that it would not count, and θ where it does not stay."""
+    """Tasks that are not all of one curvature, none that is learnt in one step, so that it would not count.
+
+    θ does not stay where it is.
+    """
     theta, *optima = rng.distinct(count + 1, -3, 5)
     alpha = rng.fraction("1/2", "1/4" if count < 3 else "1/2")
     curvatures = [Fraction(curve) for curve in (1, 2, 3) if curve * alpha != 1]
     tasks = tuple(Task(rng.choice(curvatures), optimum) for optimum in optima)
-    return (theta, tasks, alpha) if _slope(theta, tasks, alpha) else _drawn(rng, count)
+    alike = count > 1 and len({task.curvature for task in tasks}) == 1
+    return _drawn(rng, count) if alike or not _slope(theta, tasks, alpha) else (theta, tasks, alpha)
 
 
 def _slope(theta: Fraction, tasks: tuple[Task, ...], alpha: Fraction) -> Fraction:
@@ -110,10 +114,8 @@ def _open(rng: Draws) -> Given:
 
 def _staying(rng: Draws) -> Given:
     """Tasks of different curvature: with equal ones it is the mean of the optima."""
-    while True:
-        _, tasks, alpha = _drawn(rng, rng.choice((2, 3)))
-        if len({task.curvature for task in tasks}) > 1:
-            return Given(tasks=tasks, alpha=alpha)
+    _, tasks, alpha = _drawn(rng, rng.choice((2, 3)))
+    return Given(tasks=tasks, alpha=alpha)
 
 
 def _step_sought(rng: Draws) -> Given:

@@ -15,10 +15,11 @@ from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount, terminal_note, unknown
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 from rldrill.problems.valued import UNITS, tells_apart
+from rldrill.problems.valued import worth as worth_of
 
 TITLE = "Optimal policy given Q"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 6
+REVISION = 7
 
 
 class Given(AskedFor):
@@ -125,6 +126,12 @@ def draw(level: int, rng: Draws) -> Given:
         ):
             found = draw_outcomes(rng, *gap, targets[:2], shape)
         rows += found
+    if level == 2:
+        missing = Dynamics(transitions=tuple(rows))
+        found_values = {gap: worth_of(missing, gap, worth, gamma) for gap in gaps}
+        best = {max(row, key=lambda a: found_values.get((s, a), row[a])) for s, row in values.items()}
+        if len(best) == 1:  # one word for every state
+            return draw(level, rng)
     if level == 3:
         last = [index for index, row in enumerate(rows) if (row.state, row.action) == gaps[-1]]
         rows[last[0]] = rows[last[0]]._replace(reward=Parameter("x"))

@@ -1,6 +1,7 @@
 """The expected return of a policy, from a start distribution and a small tree of chances."""
 
 from collections.abc import Iterator
+from math import prod
 from typing import NamedTuple, Self, TypeAlias
 
 from pydantic import Field, model_validator
@@ -30,7 +31,7 @@ from rldrill.problems.settings import Map, maps
 
 TITLE = "Expected return"
 SOURCE = "Sutton & Barto 2018, sections 3.3 and 3.5"
-REVISION = 6
+REVISION = 7
 
 _MOST = 200
 
@@ -179,10 +180,34 @@ def _all_matters(given: Given) -> bool:
         if len(set(worth.values())) < len(worth):
             return False
         ahead[state] = sum((Fraction(given.chances[state][a]) * value for a, value in worth.items()), Fraction(0))
-    undiscounted = given.model_copy(update={"gamma": Fraction(1)})
     if len({ahead[state] for state in given.start}) < len(given.start):
         return False
-    return readable((_expected(given),)) and _expected(given) != _expected(undiscounted)
+    return readable((_expected(given),)) and _discount_shows(given)
+
+
+def _discount_shows(given: Given) -> bool:
+    """Whether a forgotten discount is neither right nor what the commonest slips with the probabilities give."""
+    gamma, one, first = Fraction(given.gamma), Fraction(1), next(iter(given.start))
+    undiscounted, slips, episodes = Fraction(0), [Fraction(0)] * 8, tuple(given.episodes())
+    for episode in episodes:
+        start, rows = Fraction(given.start[episode.start]), episode.transitions
+        chosen = [Fraction(given.chances[row.state][row.action]) for row in rows]
+        led = [Fraction(row.probability) for row in rows]
+        way, chance = prod(chosen, start=one) * prod(led, start=one), start * prod(led, start=one)
+        undiscounted += start * way * sum((Fraction(row.reward) for row in rows), Fraction(0))
+        earned = sum((gamma**time * Fraction(row.reward) for time, row in enumerate(rows)), Fraction(0))
+        counted = (
+            start * way,
+            way,
+            way / len(given.start),
+            way if episode.start == first else Fraction(0),
+            chance,
+            chance / prod(len(given.mdp.actions[row.state]) for row in rows),
+            start * prod((*chosen[:-1], *led[:-1]), start=one),
+            one,
+        )
+        slips = [slip + count * earned for slip, count in zip(slips, counted, strict=True)]
+    return undiscounted not in (*slips, slips[-1] / len(episodes))
 
 
 def _policy(mdp: Model, chances: tuple[Scalar, ...]) -> PolicyField:

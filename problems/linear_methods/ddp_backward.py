@@ -33,7 +33,7 @@ from rldrill.problems.robots import (
 
 TITLE = "Backward step of DDP"
 SOURCE = "Tassa, Erez & Todorov 2012"
-REVISION = 6
+REVISION = 7
 _LEFT_OUT = "Left out here, where the dynamics give the next state itself: it is for rates of change."
 
 

@@ -13,7 +13,7 @@ from rldrill.problems.robots import Entries, System, discretised, drawn_robot, s
 
 TITLE = "Linearisation"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 8
+REVISION = 9
 #: An operating point and a deviation have all coordinates; on which of them the derivatives depend is for the reader to
 #: find out. Entries say what is asked.
 DISTRACTORS = ("state.*", "action.*", "deviation.*", "entries.*")

@@ -13,7 +13,7 @@ from rldrill.problems.robots import Entries, System, discretised, drawn_robot, s
 
 TITLE = "Linearisation with a constant term"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 9
+REVISION = 10
 #: An operating point has all coordinates; what is linear in them cancels in C. Entries say what is asked.
 DISTRACTORS = ("state.*", "action.*", "entries.*")
 

@@ -24,7 +24,7 @@ from rldrill.problems.softmax import (
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 9
+REVISION = 10
 
 
 class Given(Episode):
@@ -47,6 +47,9 @@ def draw(level: int, rng: Draws) -> Given:
     known = Fraction(0) if isinstance(gamma, Parameter) else gamma
     differences = [G - baseline[state] for state, G in zip(run.states, returns(run, known), strict=False)]
     below = denominator(episode["theta"], episode["features"])
+    steps = {*zip(run.states, run.actions, differences, strict=False)}
+    if len(steps) < len(differences):  # which of two times is which would not show
+        return draw(level, rng)
     if not every_step_counts(run, differences) or (level == 2 and sum(map(abs, differences)) * below > _MOST):
         return draw(level, rng)
     if 0 in gradient(episode, differences):  # a weight would stay as it is

@@ -19,7 +19,9 @@ from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
+    AIC_FOR_BIC,
     BIC,
+    BIC_FOR_AIC,
     BIC_LOG_10,
     BIC_SIGN,
     BIC_WITHOUT_LOG,
@@ -248,11 +250,30 @@ def logarithm_kept(given: Given, work: Work) -> None:
     _compare(given, work, better=-1, border=lambda ratio, more: tidy(2 * sympy.log(ratio) / more))
 
 
+@slip(
+    "parameters-exchanged",
+    "Each model pays for its own parameters: their numbers were exchanged.",
+    when=lambda given: given.fitted is not None and len(given.fitted) == 2 and not given.border,
+)
+def exchanged(given: Given, work: Work) -> None:
+    """The number of parameters of the other model for that of a model."""
+    assert given.fitted is not None
+    others = reversed(given.fitted.values())
+    fitted = {
+        name: model.model_copy(update={"k": other.k})
+        for (name, model), other in zip(given.fitted.items(), others, strict=True)
+    }
+    solve(given.model_copy(update={"fitted": fitted}), work)
+
+
 MISCONCEPTIONS = (
     BIC_SIGN,
     BIC_WITHOUT_LOG,
     largest_wins,
     BIC_LOG_10,
+    AIC_FOR_BIC.where_it_shows(),
+    BIC_FOR_AIC.where_it_shows(),
+    exchanged.where_it_shows(),
     two_forgotten.where_it_shows(),
     logarithm_kept.where_it_shows(),
 )

@@ -27,6 +27,7 @@ from rldrill.solutions.sheet.bellman import (
     BELLMAN_V,
     FORGOT_GAMMA,
     MAX_FOR_MEAN,
+    Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
     RESIDUAL_MEAN,
     RESIDUAL_SIGN,
@@ -192,6 +193,7 @@ MISCONCEPTIONS = (
     ACTIONS_ALIKE.where_it_shows(),
     RESIDUAL_MEAN,
     FORGOT_GAMMA,
+    Q_FORGOT_GAMMA.where_it_shows(),
     one_state,
     action_kept,
 )

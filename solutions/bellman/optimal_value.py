@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import product
+from math import prod
 from typing import Any, NamedTuple
 
 from msgspec.structs import replace
@@ -12,7 +13,7 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, equiprobable
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import Qstar, numbered, pi
@@ -34,13 +35,15 @@ from rldrill.solutions.policy_values import Evaluation, evaluated, of_states
 from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_V,
+    FORGOT_GAMMA,
     OPTIMAL_Q_BY_REWARD,
     OWN_VALUE,
     Q_FORGOT_GAMMA,
+    Q_REWARD_UNWEIGHTED,
     Q_STAR_FROM_V,
     V_STAR_FROM_Q,
 )
-from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, of_round
+from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, SMALLEST_Q, of_round
 from rldrill.solutions.work import Result, Work
 
 #: Of so many states policy iteration is written out.
@@ -91,7 +94,7 @@ def _least(given: Sought, work: Work, known: Mapping[str, Any], policy: dict[str
     """The reward with which its action is worth as much as the best policy without it, found from a first policy."""
     mdp, row = given.mdp, given.row
     work.say(f"Which policy is optimal if {row.action} is not taken in {row.state}?")
-    last = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy)
+    last = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy, "the best actions so far")
     value_of_action = of_round(last.number)[2]
     others = [pair for pair in mdp.pairs if last.policy[pair[0]] != pair[1]]
     work.say(f"What are the other actions worth if $π_{{{last.number}}}$ is followed after them?")
@@ -113,7 +116,7 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     """Policy iteration, its last values put into the optimality equation, and what follows."""
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
-        last = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)))
+        last = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)), "what earns most in two steps")
         values, of = last.values, f"$π_{{{last.number}}}$"
         work.say(f"Is another action better than that of {of}? Suppose that the values of {of} are $V^*$:")
         Q = _worths(given, work, values)
@@ -158,13 +161,13 @@ class _Last(NamedTuple):
     values: dict[str, Value]
 
 
-def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> _Last:
-    """Policy iteration from a policy to the one that it ends with."""
+def _iterated(given: Optimal, work: Work, policy: dict[str, str], why: str) -> _Last:
+    """Policy iteration from a policy, which is taken for a reason, to the one that it ends with."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    work.say(f"Start with the guess $π_0$: {_told(policy)}.")
-    number = 0
-    while True:
+    work.say(f"Start with the guess $π_0$, {why}: {_told(policy)}.")
+    number, most = 0, prod(map(len, mdp.actions.values()))
+    while number < most:
         evaluate, improve, _ = of_round(number)
         values = evaluated(work, evaluate, mdp, known | {"pi": policy})
         greedy = {state: work.value(improve, s=state, V=values, **known) for state in mdp.states}
@@ -175,6 +178,7 @@ def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> _Last:
         policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
         number += 1
         work.say(f"This changes the policy, so $π_{{{number}}}$ is evaluated: {_told(policy)}.")
+    raise NoSolution("with this mistake the policies go round in a circle")
 
 
 def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:
@@ -277,8 +281,8 @@ def end_paid(given: Optimal, work: Work) -> None:
 MISCONCEPTIONS = (
     most_paid, first_actions, at_random, exceeds, value_kept.where_it_shows(), Q_FORGOT_GAMMA,
     replace(OPTIMAL_Q_BY_REWARD.where_it_shows(), when=lambda given: isinstance(given, Optimal)),
-    end_paid,
-    replace(OWN_VALUE, when=lambda given: isinstance(given, Optimal)),
+    end_paid, SMALLEST_Q.where_it_shows(), Q_REWARD_UNWEIGHTED.where_it_shows(), FORGOT_GAMMA.where_it_shows(),
+    OWN_VALUE,
 )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 from rldrill.problems.bellman.principle_of_optimality import Given
 from rldrill.problems.document import joined
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import ZERO, NoSolution, Value, absolute, exact, is_zero, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import Formula, slip
@@ -124,6 +125,26 @@ def greedy_first(given: Given, work: Work) -> None:
     _along(given, work, {**given.onward, given.start: most[given.start]})
 
 
+@slip(
+    "smallest-total",
+    "What the edges pay is earned, so the path with the greatest total is best; only costs are minimised.",
+)
+def smallest(given: Given, work: Work) -> None:
+    """The smallest total for the greatest."""
+    paid = tuple(edge._replace(reward=-Fraction(edge.reward)) for edge in given.edges)
+    opposite = Work(carried={part: _negated(answer) for part, answer in work.carried.items()})
+    solve(given.model_copy(update={"edges": paid}), opposite)
+    for answer in opposite.answers.values():
+        work.answer(_negated(answer))
+
+
+def _negated(answer: Any) -> Any:
+    """Totals with the other sign; next states as they are."""
+    if isinstance(answer, Mapping):
+        return {state: _negated(each) for state, each in answer.items()}
+    return answer if isinstance(answer, tuple) else -answer
+
+
 def _through_another(given: Given) -> bool:
     return given.through not in (None, given.start)
 
@@ -164,7 +185,15 @@ def way_on_left_out(given: Given, work: Work) -> None:
     work.answer(total - onward)
 
 
-MISCONCEPTIONS = (greedy, greedy_first, TAIL_LEFT_OUT, through_ignored, head_left_out, way_on_left_out)
+MISCONCEPTIONS = (
+    greedy,
+    greedy_first,
+    smallest.where_it_shows(),
+    TAIL_LEFT_OUT,
+    through_ignored,
+    head_left_out,
+    way_on_left_out,
+)
 
 
 def oracle(given: Given) -> Answers:

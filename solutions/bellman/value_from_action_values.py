@@ -21,16 +21,11 @@ from rldrill.solutions.sheet.bellman import (
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (
-    replace(MAX_FOR_MEAN, when=lambda given: not given.finds),
-    replace(ACTIONS_ALIKE, when=lambda given: _averages_unevenly(given)),
+    MAX_FOR_MEAN,
+    replace(ACTIONS_ALIKE, when=lambda given: any(len(set(row.values())) > 1 for row in given.policy.values())),
     MEAN_OF_Q_STAR,
     POLICY_FOR_MAX,
 )
-
-
-def _averages_unevenly(given: Given) -> bool:
-    open_in_policy = any(isinstance(chance, Parameter) for row in given.policy.values() for chance in row.values())
-    return any(len(set(row.values())) > 1 for row in given.policy.values()) and not (given.finds and open_in_policy)
 
 
 def solve(given: Given, work: Work) -> None:

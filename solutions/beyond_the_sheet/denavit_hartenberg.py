@@ -7,7 +7,7 @@ from rldrill.problems.exact import shown
 from rldrill.solutions import matrices
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import Misconception
+from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -24,8 +24,6 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     shifts,
 )
 from rldrill.solutions.work import Work
-
-MISCONCEPTIONS: tuple[Misconception, ...] = (CRAIGS, WRONG_ORDER, NOT_INVERTED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -105,6 +103,33 @@ def _through(given: Given, work: Work, known: dict[str, Any], point: AnyMatrix) 
             formula = BACK_POINT if outwards else FORWARD_POINT
             moved = work.step(formula, i=link, point={here: point}, rotation={link: turn}, origin={link: shift})
         point = matrices.column(work.answer(tuple(moved.entries())))
+
+
+def _exchanged(given: Given, one: str, other: str) -> Given:
+    """The links with the two parameters of each of them exchanged."""
+    links = (link.model_copy(update={one: getattr(link, other), other: getattr(link, one)}) for link in given.links)
+    return given.model_copy(update={"links": tuple(links)})
+
+
+@slip("offset-for-length", "d shifts along z, a along the new x: the two lengths were exchanged.")
+def lengths_exchanged(given: Given, work: Work) -> None:
+    """The columns of d and a exchanged."""
+    solve(_exchanged(given, "d", "a"), work)
+
+
+@slip("twist-for-angle", "θ turns about z, α about the new x: the two angles were exchanged.")
+def angles_exchanged(given: Given, work: Work) -> None:
+    """The columns of θ and α exchanged."""
+    solve(_exchanged(given, "theta", "alpha"), work)
+
+
+MISCONCEPTIONS: tuple[Misconception, ...] = (
+    CRAIGS,
+    WRONG_ORDER,
+    NOT_INVERTED,
+    lengths_exchanged.where_it_shows(),
+    angles_exchanged.where_it_shows(),
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,5 +1,6 @@
 """The Jacobian column by column; the velocity from it; the determinant where it is square."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from rldrill.problems.beyond_the_sheet.jacobian import Given
@@ -37,11 +38,19 @@ def solve(given: Given, work: Work) -> None:
     """The Jacobian, then the velocity or the rates; whether it is singular."""
     arm = arms.known(given)
     arm["phi"] = arms.link_angles(work, arm)
-    joints = tuple(arm["length"])
-    rows = [[work.step(formula, j=joint, **arm) for joint in joints] for formula in (JACOBIAN_X, JACOBIAN_Y)]
+    ends = dict.fromkeys(arm["length"], arm["n"])
+    _answer(given, work, arm, ends)
+
+
+def _answer(given: Given, work: Work, arm: dict[str, Any], ends: Mapping[int, int]) -> None:
+    """All parts, from the angles of the links and the last link that each joint moves."""
+    rows = [
+        [work.step(formula, j=joint, **arm | {"n": last}) for joint, last in ends.items()]
+        for formula in (JACOBIAN_X, JACOBIAN_Y)
+    ]
     if given.orientation:
         work.say("Every joint turns the last link by its own angle, so the row of $φ$ holds ones.")
-        rows.append([ONE for _ in joints])
+        rows.append([ONE for _ in ends])
     J = work.answer(matrices.matrix(rows))
     if given.velocity is not None:
         _rates(work, J, *map(exact, given.velocity))
@@ -91,6 +100,17 @@ def transposed(given: Given, work: Work) -> None:
 
 
 @slip(
+    "absolute-angles-differentiated",
+    "Angles count from the link before, so joint 1 turns the links behind it, too: θ₁ is in the angles of all of them.",
+    when=lambda given: not given.orientation,
+)
+def absolute_differentiated(given: Given, work: Work) -> None:
+    """Each joint's own angle against the base, and its own link alone that it moves."""
+    arm = arms.known(given)
+    _answer(given, work, arm | {"phi": arm["thetaj"]}, {joint: joint for joint in arm["length"]})
+
+
+@slip(
     "absolute-rates",
     "Each angular velocity is relative to the link before: a link turns with the sum of all up to its own.",
     when=lambda given: given.velocity is None and len(given.lengths) == 2,
@@ -108,6 +128,7 @@ def absolute_rates(given: Given, work: Work) -> None:
 MISCONCEPTIONS = (
     transposed,
     ABSOLUTE_ANGLES,
+    absolute_differentiated.where_it_shows(),
     absolute_rates.where_it_shows(),
     TRANSPOSE_FOR_INVERSE.where_it_shows(),
     MINUSES_FORGOTTEN.where_it_shows(),

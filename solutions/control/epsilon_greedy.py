@@ -49,7 +49,7 @@ def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
         work.say(f"{given.taken.action} is taken with probability ${shown(given.taken.probability)}$:")
         epsilon = work.answer(_rate(given, work, chances[given.taken.action], given.taken.probability))
         if given.valued:
-            _average(given, work, epsilon_greedy(work, given.state, values, epsilon))
+            _average(given, work, epsilon_greedy(work, given.state, values, epsilon, again=True))
     elif given.state_value is not None:
         worth = _value(given, work, chances)
         work.say(f"This value is ${shown(given.state_value)}$:")

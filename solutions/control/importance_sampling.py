@@ -20,7 +20,7 @@ from rldrill.solutions.sheet.control import (
     WEIGHTED_FOR_ORDINARY,
     WEIGHTED_IMPORTANCE_SAMPLING,
 )
-from rldrill.solutions.sheet.fundamentals import RETURN
+from rldrill.solutions.sheet.fundamentals import RETURN, UNDISCOUNTED
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
@@ -76,6 +76,7 @@ MISCONCEPTIONS = (
     FIRST_ACTION_ALONE.where_it_shows(),
     SUM_OF_EPISODES.where_it_shows(),
     per_decision.where_it_shows(),
+    UNDISCOUNTED.where_it_shows(),
 )
 
 

@@ -16,7 +16,7 @@ from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, tensors, without_loss
 from rldrill.solutions.rational import generator
-from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FROM_V, V_STAR_FROM_Q
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FROM_V, V_STAR_FROM_Q
 from rldrill.solutions.sheet.dynamic_programming import (
     GREEDY_BY_REWARD,
     GREEDY_BY_VALUE,
@@ -129,6 +129,7 @@ def value_kept(given: Given, work: Work) -> None:
 
 
 MISCONCEPTIONS = (
+    FORGOT_GAMMA.where_it_shows(),
     GREEDY_BY_VALUE,
     GREEDY_BY_REWARD,
     SMALLEST_Q,

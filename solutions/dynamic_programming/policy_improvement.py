@@ -2,8 +2,6 @@
 
 from typing import Any
 
-from msgspec.structs import replace
-
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.problems.mathematics import mathematics
@@ -28,6 +26,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_VALUE,
     IMPROVEMENT_FROM_Q,
     POLICY_IMPROVEMENT,
+    SMALLEST_Q,
 )
 from rldrill.solutions.work import Work
 
@@ -67,11 +66,12 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
 
 
 MISCONCEPTIONS = (
+    FORGOT_GAMMA.where_it_shows(),
     IMPROVEMENT_BY_VALUE,
     IMPROVEMENT_BY_REWARD,
     one_sweep(solve),
     Q_FORGOT_GAMMA,
-    replace(FORGOT_GAMMA.where_it_shows(), when=lambda given: given.gamma != 1 and given.values is None),
+    SMALLEST_Q.where_it_shows(),
 )
 
 

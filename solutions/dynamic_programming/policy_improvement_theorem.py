@@ -16,7 +16,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
 from rldrill.solutions.policy_values import Evaluation, endless, evaluated, of_states, one_sweep
-from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V, FORGOT_GAMMA
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V, FORGOT_GAMMA, Q_FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import POLICY_IMPROVEMENT_THEOREM, POLICY_ITERATION
 from rldrill.solutions.work import Work
 
@@ -135,6 +135,7 @@ MISCONCEPTIONS = (
     one_state,
     own_action.where_it_shows(),
     one_sweep(solve),
+    Q_FORGOT_GAMMA.where_it_shows(),
     replace(FORGOT_GAMMA.where_it_shows(), when=lambda given: given.gamma != 1 and given.values is None),
 )
 

@@ -28,10 +28,11 @@ from rldrill.solutions.oracle import (
 )
 from rldrill.solutions.oracle import policy_values as values_of
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep, swept_once
-from rldrill.solutions.sheet.bellman import Q_FORGOT_GAMMA
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, Q_FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,
+    SMALLEST_Q,
     of_round,
 )
 from rldrill.solutions.work import Work
@@ -168,6 +169,7 @@ MISCONCEPTIONS = (
     stops, goes_on.where_it_shows(), one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD,
     # In rounds one action value is told beside the answers: it shows that a policy is not optimal, and changes nothing.
     replace(Q_FORGOT_GAMMA, when=lambda given: isinstance(given, Threshold)),
+    FORGOT_GAMMA.where_it_shows(), SMALLEST_Q.where_it_shows(),
 )  # fmt: skip
 
 

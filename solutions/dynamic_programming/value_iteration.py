@@ -3,8 +3,6 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from msgspec.structs import replace
-
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.value_iteration import Given, Sought, Swept
 from rldrill.problems.models import Model
@@ -21,6 +19,7 @@ from rldrill.solutions.reaching import Chosen, Known, reached, rewarded
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, MAXIMA_APART, OPTIMAL_Q_BY_REWARD
 from rldrill.solutions.sheet.dynamic_programming import (
     MEAN_FOR_MAX,
+    SMALLEST_Q,
     SWEEP_OVER_ACTIONS,
     VALUE_ITERATION,
     ahead_of,
@@ -207,8 +206,8 @@ def _ways(given: Sought) -> int:
 MISCONCEPTIONS = (
     *order_slips(solve, lambda given: _swept(given) and not given.in_place and not given.action_values),
     paid_twice, stopped_early, MEAN_FOR_MAX, exceeds, most_paid.where_it_shows(),
-    MAXIMA_APART.where_it_shows(),
-    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and (_swept(given) or isinstance(given, Sought))),
+    MAXIMA_APART.where_it_shows(), SMALLEST_Q.where_it_shows(),
+    FORGOT_GAMMA,
     OPTIMAL_Q_BY_REWARD,
 )  # fmt: skip
 

@@ -132,11 +132,13 @@ def _added(put_in: Expr, value: Expr) -> tuple[Expr, ...]:
 
 
 def _divided(key: Hashable, equation: _Multiple, pen: _Pen) -> Generator[Sides, None, Affine]:
-    """The value of an unknown of which a multiple is known."""
-    scale, value = equation
+    """The value of an unknown of which a multiple is known; a factor with a letter that cancels is taken out first."""
+    scale, side = equation
     if scale == 1:
-        return value
-    value = _affine(value * (ONE / scale))
+        return side
+    value = _affine(side * (ONE / scale))
+    if not is_rational(scale) and common_denominator((side.constant,)) == common_denominator((value.constant,)):
+        yield pen.times(pen.names[key], scale), (pen.times(None, scale, value.constant),)
     yield pen.names[key], (_written(value, pen),)
     return value
 

@@ -17,6 +17,7 @@ from rldrill.solutions.sheet.linear_methods import (
     FORGOT_R,
     FORGOT_R_IN_COSTS,
     LQR_GAIN,
+    NEXT_NOT_DISCOUNTED,
     NO_TERMINAL,
     NO_TERMINAL_COST,
     POSITIVE_S,
@@ -102,7 +103,7 @@ COST_TO_GO = linear_quadratic.cost_to_go(solve, _values)
 OF_GIVEN_PRICES = tuple(
     replace(mistake, when=_forwards) for mistake in (FORGOT_R, FORGOT_R_IN_COSTS, NO_TERMINAL, NO_TERMINAL_COST)
 )
-MISCONCEPTIONS = (POSITIVE_S, *OF_GIVEN_PRICES, TRANSPOSED, same_time, COST_TO_GO)
+MISCONCEPTIONS = (POSITIVE_S, *OF_GIVEN_PRICES, TRANSPOSED, same_time, COST_TO_GO, NEXT_NOT_DISCOUNTED.where_it_shows())
 
 
 def oracle(given: Given) -> Answers:

@@ -12,11 +12,24 @@ from rldrill.solutions.matrices import column
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.linear_methods import FORGOT_R, LQR_GAIN, POSITIVE_S, TRANSPOSED_A, in_costs, quadratic
+from rldrill.solutions.sheet.linear_methods import (
+    FORGOT_R,
+    LQR_GAIN,
+    NEXT_NOT_DISCOUNTED,
+    POSITIVE_S,
+    TRANSPOSED_A,
+    in_costs,
+    quadratic,
+)
 from rldrill.solutions.work import Work
 
 #: Without the price in it, the gain says nothing of a price that is to be found.
-MISCONCEPTIONS = (POSITIVE_S, replace(FORGOT_R, when=lambda given: given.action is None), TRANSPOSED_A)
+MISCONCEPTIONS = (
+    POSITIVE_S,
+    replace(FORGOT_R, when=lambda given: given.action is None),
+    TRANSPOSED_A,
+    NEXT_NOT_DISCOUNTED.where_it_shows(),
+)
 
 
 def solve(given: Given, work: Work) -> None:

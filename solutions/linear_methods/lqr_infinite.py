@@ -21,6 +21,7 @@ from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.riccati import Regulator, stationary
 from rldrill.solutions.sheet.linear_methods import (
     LOOP_WITH_PLUS,
+    NEXT_NOT_DISCOUNTED,
     OTHER_ROOT,
     POSITIVE_S,
     Modes,
@@ -430,6 +431,7 @@ MISCONCEPTIONS = (
     OTHER_ROOT,
     POSITIVE_S,
     LOOP_WITH_PLUS.where_it_shows(),
+    NEXT_NOT_DISCOUNTED.where_it_shows(),
     linear_quadratic.cost_to_go(solve, lambda _: slice(1)),
 )
 

@@ -11,6 +11,7 @@ from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.policy_gradient import (
     ACTOR_CRITIC,
     CRITIC,
@@ -99,6 +100,7 @@ def error_late(given: Given, work: Work) -> None:
 
 MISCONCEPTIONS = (
     NEXT_VALUE_FORGOTTEN,
+    FORGOT_GAMMA.where_it_shows(),
     WEIGHTED_BY_REWARD,
     swapped,
     error_late.where_it_shows(),

@@ -16,7 +16,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import BELLMAN_Q, V_FROM_Q
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, FORGOT_GAMMA, Q_FORGOT_GAMMA, V_FROM_Q
 from rldrill.solutions.sheet.policy_gradient import (
     ADVANTAGE,
     ADVANTAGE_SIGN,
@@ -35,6 +35,8 @@ MISCONCEPTIONS = (
     MEAN_FOR_STATE.where_it_shows(),
     GAE_WITHOUT_LAMBDA,
     GAE_WITHOUT_GAMMA,
+    FORGOT_GAMMA.where_it_shows(),
+    Q_FORGOT_GAMMA.where_it_shows(),
 )
 
 

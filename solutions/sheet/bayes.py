@@ -25,6 +25,7 @@ from rldrill.solutions.formula.notation import (
     Counting,
     Hypotheses,
     IntegralOver,
+    MaxOver,
     States,
     SumOver,
     Transposed,
@@ -162,12 +163,10 @@ with evaluate(False):
     BASE_RATE_IGNORED = Misconception(
         "base-rate-ignored",
         "The prior counts: each likelihood is weighted by the probability of its hypothesis.",
-        when=lambda given: not given.prior_found,
     )
     LIKELIHOOD_FOR_POSTERIOR = Misconception(
         "likelihood-for-posterior",
         "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
-        when=lambda given: not given.prior_found,
     )
     MEASURED_TWICE = Misconception(
         "measured-twice", "Every measurement counts once: those before are in the belief already."
@@ -617,7 +616,7 @@ with evaluate(False):
     BEST_FIT = Misconception(
         "best-fit-for-evidence",
         "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
-        when=lambda given: any(not model.certain for model in given.models.values()),
+        when=lambda given: any(model.theta is None for model in given.models.values()),
     )
     MEAN_OF_PRIOR = Misconception(
         "prior-mean-for-evidence",
@@ -717,6 +716,12 @@ with evaluate(False):
     BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs ln n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
     BIC_LOG_2 = Misconception("log-base-2", "The logarithms of the BIC are natural, to the base e, not to the base 2.")
+    AIC_FOR_BIC = Misconception(
+        "akaike-for-bayes", "That is the AIC: in the BIC each free parameter costs ln n, not 2, as n counts, too."
+    )
+    BIC_FOR_AIC = Misconception(
+        "bayes-for-akaike", "That is the BIC: in the AIC each free parameter costs 2, however many data there are."
+    )
     BIC = Formula(
         "bic",
         bic(M),
@@ -728,6 +733,7 @@ with evaluate(False):
         misread={
             BIC_SIGN: 2 * log_likelihood + k * log(n),
             BIC_WITHOUT_LOG: -2 * log_likelihood + k * n,
+            AIC_FOR_BIC: -2 * log_likelihood + 2 * k,
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
             BIC_LOG_2: (-2 * log_likelihood + k * log(n)) / log(2),
             HALF_FIT: -log_likelihood + k * log(n),
@@ -747,7 +753,12 @@ def uniform_evidence() -> Formula:
     """The evidence of a coin whose θ has a uniform prior."""
     with evaluate(False):
         right = factorial(heads) * factorial(tails) / factorial(heads + tails + 1)
-        misread = {**EVIDENCE.misread, BINOMIAL: _ORDERS * right, PRIOR_NOT_NORMALISED: right}  # it is 1 all over
+        misread = {
+            **EVIDENCE.misread,
+            BINOMIAL: _ORDERS * right,
+            PRIOR_NOT_NORMALISED: right,  # it is 1 all over
+            MEAN_OF_PRIOR: Pow(2, -heads - tails),
+        }
         return replace(EVIDENCE, right=right, also=(), note="", misread=misread)
 
 
@@ -775,7 +786,7 @@ def akaike() -> Formula:
             source="Burnham & Anderson 2002, section 2.2",
             hint="k counts the free parameters, each of which costs 2; the smallest AIC wins.",
             note="",
-            misread={HALF_FIT: -log_likelihood + 2 * k},
+            misread={HALF_FIT: -log_likelihood + 2 * k, BIC_FOR_AIC: BIC.right},
         )
 
 
@@ -783,6 +794,7 @@ def akaike() -> Formula:
 def few_values() -> Formula:
     """The evidence of a coin whose θ is one of a few values."""
     with evaluate(False):
+        mean_theta = SumOver(theta_at(i) * prior_at(i), i, Counting(1, count))
         right = SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, count))
         return replace(
             FIXED_COIN,
@@ -790,7 +802,11 @@ def few_values() -> Formula:
             title="Evidence of a coin whose θ is one of a few values",
             source="MacKay 2003, section 3.2, with a sum for the integral",
             hint="Weight the likelihood at every possible θ by the prior of that θ, and add.",
-            misread={BINOMIAL: _ORDERS * right},
+            misread={
+                BINOMIAL: _ORDERS * right,
+                BEST_FIT: MaxOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails, i, Counting(1, count)),
+                MEAN_OF_PRIOR: mean_theta**heads * (1 - mean_theta) ** tails,
+            },
         )
 
 

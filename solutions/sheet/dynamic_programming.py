@@ -52,6 +52,7 @@ from rldrill.solutions.sheet.bellman import (
     Q_REWARD_UNWEIGHTED,
     REWARD_UNWEIGHTED,
     WITHOUT_GAMMA,
+    WITHOUT_GAMMA_PI,
 )
 
 
@@ -81,6 +82,12 @@ with evaluate(False):
     _NEXT_POLICY_VALUE = SumOver(P(s, a, s1) * Vpi(s1), s1, Successors(s, a))
     _NEXT_OPTIMAL_VALUE = SumOver(P(s, a, s1) * Vstar(s1), s1, Successors(s, a))
     _REWARD = SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a))
+    _WITHOUT_GAMMA_STAR = SumOver(P(s, a, s1) * (R(s, a, s1) + Vstar(s1)), s1, Successors(s, a))
+    _UNWEIGHTED_PI, _UNWEIGHTED_STAR = (
+        SumOver(R(s, a, s1) + P(s, a, s1) * gamma * values(s1), s1, Successors(s, a)) for values in (Vpi, Vstar)
+    )
+
+    SMALLEST_Q = Misconception("smallest-q", "Q is a return, so the greatest is best; only costs are minimised.")
 
     POLICY_EVALUATION = Formula(
         "policy-evaluation",
@@ -121,6 +128,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 4.3",
         hint="Write one equation for every state, with the policy's action in it, and solve them together.",
         misread={
+            FORGOT_GAMMA: SumOver(P(s, pi(s), s1) * (R(s, pi(s), s1) + V(s1)), s1, Successors(s, pi(s))),
             Q_REWARD_UNWEIGHTED: SumOver(R(s, pi(s), s1) + P(s, pi(s), s1) * gamma * V(s1), s1, Successors(s, pi(s))),
         },
     )
@@ -141,6 +149,9 @@ with evaluate(False):
         misread={
             IMPROVEMENT_BY_VALUE: ArgMaxOver(_NEXT_POLICY_VALUE, a, Actions(s)),
             IMPROVEMENT_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+            SMALLEST_Q: ArgMaxOver(-LOOKAHEAD_PI, a, Actions(s)),
+            FORGOT_GAMMA: ArgMaxOver(WITHOUT_GAMMA_PI, a, Actions(s)),
+            Q_REWARD_UNWEIGHTED: ArgMaxOver(_UNWEIGHTED_PI, a, Actions(s)),
         },
     )
 
@@ -192,6 +203,9 @@ with evaluate(False):
         misread={
             GREEDY_BY_VALUE: ArgMaxOver(_NEXT_OPTIMAL_VALUE, a, Actions(s)),
             GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+            SMALLEST_Q: ArgMaxOver(-LOOKAHEAD_STAR, a, Actions(s)),
+            FORGOT_GAMMA: ArgMaxOver(_WITHOUT_GAMMA_STAR, a, Actions(s)),
+            Q_REWARD_UNWEIGHTED: ArgMaxOver(_UNWEIGHTED_STAR, a, Actions(s)),
         },
     )
     IMPROVEMENT_FROM_Q = Formula(
@@ -202,6 +216,9 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 4.9",
         hint="In every state take the action whose value under the old policy is greatest.",
         place=Place.WORKING,
+        misread={
+            SMALLEST_Q: ArgMaxOver(-Qpi(s, a), a, Actions(s)),
+        },
     )
     SWEEP_OVER_ACTIONS = Formula(
         "value-iteration-over-actions",
@@ -216,7 +233,6 @@ with evaluate(False):
             OPTIMAL_Q_BY_REWARD: _REWARD,
         },
     )
-    SMALLEST_Q = Misconception("smallest-q", "Q is a return, so the greatest is best; only costs are minimised.")
     GREEDY_FROM_Q = Formula(
         "greedy-from-q",
         pi_star(s),
@@ -339,6 +355,8 @@ def greedy(sweeps: int) -> tuple[Formula, Formula]:
     with evaluate(False):
         ahead = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * V_k(s1)), s1, Successors(s, a))
         after = SumOver(P(s, a, s1) * V_k(s1), s1, Successors(s, a))
+        undiscounted = SumOver(P(s, a, s1) * (R(s, a, s1) + V_k(s1)), s1, Successors(s, a))
+        unweighted = SumOver(R(s, a, s1) + P(s, a, s1) * gamma * V_k(s1), s1, Successors(s, a))
         return (
             replace(
                 GREEDY_FROM_V,
@@ -347,6 +365,9 @@ def greedy(sweeps: int) -> tuple[Formula, Formula]:
                 misread={
                     GREEDY_BY_VALUE: ArgMaxOver(after, a, Actions(s)),
                     GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+                    SMALLEST_Q: ArgMaxOver(-ahead, a, Actions(s)),
+                    FORGOT_GAMMA: ArgMaxOver(undiscounted, a, Actions(s)),
+                    Q_REWARD_UNWEIGHTED: ArgMaxOver(unweighted, a, Actions(s)),
                 },
             ),
             replace(

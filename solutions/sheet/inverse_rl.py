@@ -93,13 +93,9 @@ def several_violated(given: Any) -> bool:
 with evaluate(False):
     _DISCOUNTED = SumOver(gamma**t * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY))
 
-    FEATURES_UNDISCOUNTED = Misconception(
-        "undiscounted", "The features at time t count with γᵗ.", when=lambda given: given.estimate is None
-    )
+    FEATURES_UNDISCOUNTED = Misconception("undiscounted", "The features at time t count with γᵗ.")
     FEATURES_EARLY = Misconception(
-        "gamma-one-step-early",
-        "The features of the first state are not discounted: γ⁰ = 1.",
-        when=lambda given: given.estimate is None,
+        "gamma-one-step-early", "The features of the first state are not discounted: γ⁰ = 1."
     )
     FEATURES_SUMMED = Misconception(
         "sum-for-mean",

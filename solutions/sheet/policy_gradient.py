@@ -65,7 +65,7 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 from rldrill.solutions.ratios import keeps_the_worse
-from rldrill.solutions.sheet.bellman import OWN_VALUE_DISCOUNTED
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OWN_VALUE_DISCOUNTED
 
 _NABLA = Script(Glyph("∇", "variable"), variable("θ"))
 
@@ -274,7 +274,6 @@ with evaluate(False):
     FEATURES_ALONE = Misconception(
         "features-alone",
         "The features expected under the policy are subtracted: they come from the softmax's denominator.",
-        when=lambda given: given.component is None,
     )
     EXPECTED_ADDED = Misconception(
         "expected-features-added",
@@ -329,6 +328,7 @@ with evaluate(False):
         hint="Reward plus the discounted value of the next state, minus the value of the state that is left.",
         misread={
             NEXT_VALUE_FORGOTTEN: r(t + 1) - V(S(t)),
+            FORGOT_GAMMA: r(t + 1) + V(S(t + 1)) - V(S(t)),
             OWN_VALUE_DISCOUNTED: r(t + 1) + V(S(t + 1)) - gamma * V(S(t)),
         },
     )

@@ -36,7 +36,7 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OWN_VALUE_DISCOUNTED
-from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
+from rldrill.solutions.sheet.fundamentals import FIRST_DISCOUNTED, LINEAR_DISCOUNT, STEP_UNDISCOUNTED, UNDISCOUNTED
 
 #: The λ-return, TD errors, eligibility traces, the count of visits, the visits and the weights of their returns.
 Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
@@ -92,6 +92,15 @@ with evaluate(False):
         "closing-weight-forgotten",
         "The full return stands for all longer n-step returns too, so its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
     )
+    #: The same where a run is cut off, and the longest n-step return takes the place of the full one.
+    FORGOT_LONGEST = Misconception(
+        FORGOT_CLOSING.name,
+        "The sum does not stop before the end: the longest n-step return has the weight λᵀ⁻ᵗ⁻¹.",
+    )
+    LONGEST_LIKE_OTHERS = Misconception(
+        CLOSING_LIKE_OTHERS.name,
+        "The longest n-step return gets all the weight that is left: its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
+    )
     POWER_ONE_LATE = Misconception(
         "power-one-late",
         "The n-step return has the power λⁿ⁻¹: the one-step return is not weakened by λ.",
@@ -120,8 +129,8 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             FORGOT_ONE_MINUS_LAMBDA: _WEIGHTED + _CLOSING_CUT_OFF,
-            FORGOT_CLOSING: (1 - lam) * _WEIGHTED,
-            CLOSING_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING_CUT_OFF,
+            FORGOT_LONGEST: (1 - lam) * _WEIGHTED,
+            LONGEST_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING_CUT_OFF,
             POWER_ONE_LATE: (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING_CUT_OFF,
             LAMBDA_EXCHANGED: _EXCHANGED + (1 - lam) ** (T - t - 1) * Gn(t, T - t),
             AVERAGED_ALIKE: (_ALL_OF_THEM + Gn(t, T - t)) / (T - t),
@@ -151,12 +160,10 @@ with evaluate(False):
     BOOTSTRAP_UNDISCOUNTED = Misconception(
         "bootstrap-not-discounted",
         "The value at the end of the n steps is discounted too, by γⁿ.",
-        when=_given("gamma"),
     )
     BOOTSTRAP_ONE_SHORT = Misconception(
         "bootstrap-one-power-short",
         "The last reward has the factor γⁿ⁻¹; the value after it is one step later, so it has γⁿ.",
-        when=_given("gamma"),
     )
     ONE_REWARD_TOO_MANY = Misconception(
         "one-reward-too-many", "n steps earn n rewards; the next reward is already inside the value."
@@ -185,6 +192,9 @@ with evaluate(False):
             BOOTSTRAP_AT_START: _REWARDS + gamma**n * V(S(t)),
             BOOTSTRAP_ONE_STATE_SHORT: _REWARDS + gamma**n * V(S(t + n - 1)),
             FROM_TIME_0: SumOver(gamma**i * r(1 + i), i, Counting(0, n - 1)) + gamma**n * V(S(n)),
+            UNDISCOUNTED: SumOver(r(t + 1 + i), i, Counting(0, n - 1)) + V(S(t + n)),
+            FIRST_DISCOUNTED: gamma * _REWARDS + gamma ** (n + 1) * V(S(t + n)),
+            LINEAR_DISCOUNT: SumOver(gamma * i * r(t + 1 + i), i, Counting(0, n - 1)) + gamma * n * V(S(t + n)),
         },
     )
 
@@ -204,12 +214,8 @@ with evaluate(False):
     _DECAYED = gamma * lam * e(s)
     _VISIT = Visited(s, S(t))
 
-    DECAY_WITHOUT_GAMMA = Misconception(
-        "decay-without-gamma", "Traces decay by γλ, not by λ alone.", when=_given("gamma")
-    )
-    DECAY_WITHOUT_LAMBDA = Misconception(
-        "decay-without-lambda", "Traces decay by γλ, not by γ alone.", when=_given("lambda")
-    )
+    DECAY_WITHOUT_GAMMA = Misconception("decay-without-gamma", "Traces decay by γλ, not by λ alone.")
+    DECAY_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by γλ, not by γ alone.")
     REPLACING = Misconception(
         "replacing-trace",
         "Accumulating traces add 1 to what is left of the trace; only replacing traces are set to 1.",
@@ -439,6 +445,9 @@ with evaluate(False):
         hint="Average the one-step targets after all visits of the state; begin with states that only lead to the end.",
         note="These are the values of the most likely Markov process behind the data (the certainty equivalence).",
         place=Place.BEYOND,
+        misread={
+            FORGOT_GAMMA: Pow(N(s), -1) * SumOver(r(t + 1) + V(S(t + 1)), t, Visits(s)),
+        },
     )
 
 

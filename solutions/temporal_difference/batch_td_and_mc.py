@@ -9,7 +9,8 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import BATCH_MONTE_CARLO, BATCH_TD
 from rldrill.solutions.work import Work
 
@@ -52,13 +53,19 @@ def _one_by_one(given: Given) -> list[Observed]:
 
 
 def _monte_carlo(given: Given, work: Work, known: dict[str, Any]) -> dict[str, Value]:
+    if given.visits == "first":
+        known = known | _first_visits(given)
+    return _averaged(given, work, known)
+
+
+def _averaged(given: Given, work: Work, known: dict[str, Any]) -> dict[str, Value]:
+    """The means of the returns after the visits that are known."""
     everything: list[Value] = []  # the returns on the clock of all episodes, with a 0 wherever one ends
     for episode in given.episodes:
         returns = _returns(episode, work, known["gamma"])
         everything += [*returns, ZERO] * episode.times
     G = dict(enumerate(everything))
     if given.visits == "first":
-        known = known | _first_visits(given)
         work.say("Here the sum runs over the first visits to $s$, one in every episode that visits it, $n(s)$ in all:")
     else:
         work.say("The sum runs over all visits to $s$, the times $t$ with $s_t = s$, $n(s)$ in all:")
@@ -143,6 +150,27 @@ def other_visits(given: Given, work: Work) -> None:
 
 
 @slip(
+    "first-states-alone",
+    "An episode says something of every state in it: a return is counted after each of them, not after its first one "
+    "alone.",
+    when=lambda given: any(
+        episode.states[0] in later.states[1:] for later in given.episodes for episode in given.episodes
+    ),
+)
+def first_states(given: Given, work: Work) -> None:
+    """Of the states in which episodes begin, only the returns of those episodes, from their beginning."""
+    known = _known(given)
+    starts: dict[str, tuple[int, ...]] = {}
+    time = 0
+    for episode in _one_by_one(given):
+        starts[episode.states[0]] = (*starts.get(episode.states[0], ()), time)
+        time += len(episode.states) + 1
+    visits = (known | _first_visits(given) if given.visits == "first" else known)["visits"] | starts
+    counted = {"visits": visits, "count": {state: exact(len(times)) for state, times in visits.items()}}
+    _answer(given, work, lambda *_: _averaged(given, work, known | counted), _td)
+
+
+@slip(
     "times-ignored",
     "An episode that was observed several times counts as often as it was observed.",
     when=lambda given: len({episode.times for episode in given.episodes}) > 1,
@@ -158,7 +186,10 @@ MISCONCEPTIONS = (
     monte_carlo_for_td,
     monte_carlo_ahead.where_it_shows(),
     other_visits,
+    first_states.where_it_shows(),
     times_ignored.where_it_shows(),
+    RECURSION_UNDISCOUNTED.where_it_shows(),
+    FORGOT_GAMMA.where_it_shows(),
 )
 
 

@@ -11,15 +11,17 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
-from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED
+from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED, UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     AVERAGED_ALIKE,
     CLOSING_LIKE_OTHERS,
     FORGOT_CLOSING,
+    FORGOT_LONGEST,
     FORGOT_ONE_MINUS_LAMBDA,
     LAMBDA_EXCHANGED,
     LAMBDA_RETURN,
     LAMBDA_RETURN_CUT_OFF,
+    LONGEST_LIKE_OTHERS,
     POWER_ONE_LATE,
 )
 from rldrill.solutions.temporal_difference.n_step_return import n_step, worth_as_before
@@ -100,8 +102,11 @@ MISCONCEPTIONS = (
     FORGOT_ONE_MINUS_LAMBDA,
     FORGOT_CLOSING,
     CLOSING_LIKE_OTHERS,
+    FORGOT_LONGEST,
+    LONGEST_LIKE_OTHERS,
     POWER_ONE_LATE,
     STEP_UNDISCOUNTED,
+    UNDISCOUNTED.where_it_shows(),
     LAMBDA_EXCHANGED.where_it_shows(),
     AVERAGED_ALIKE.where_it_shows(),
     value_after_the_end.where_it_shows(),

@@ -153,6 +153,19 @@ def stale_values(given: Given, work: Work) -> None:
 
 
 @slip(
+    "target-of-td",
+    "Monte Carlo takes all rewards up to the episode's end; r + γV(s′), with a value of the table, is TD's target.",
+    when=lambda given: len(given.trajectory.rewards) > 1,
+)
+def target_of_td(given: Given, work: Work) -> None:
+    """The reward and the discounted value of what is visited next, as the table has it, for every return."""
+    values = [exact(_before(given, visited)) for visited in given.occasions]
+    rewards, gamma = map(exact, given.trajectory.rewards), exact(given.gamma)
+    targets = tuple(r + gamma * after for r, after in zip(rewards, (*values[1:], ZERO), strict=True))
+    _finish(given, work, _answered(given, work, targets))
+
+
+@slip(
     "mean-of-returns",
     "Every visit makes an update of its own, one after the other; the returns are not averaged first.",
     when=lambda given: given.revisits and given.visits == "every",
@@ -171,6 +184,7 @@ MISCONCEPTIONS = (
     other_visits,
     RECURSION_UNDISCOUNTED,
     reward_before,
+    target_of_td.where_it_shows(),
     stale_values.where_it_shows(),
     last_visit.where_it_shows(),
     mean_of_returns.where_it_shows(),

@@ -12,7 +12,7 @@ from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, reading, tried, with_letter
-from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
+from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED, UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     BOOTSTRAP_AT_START,
     BOOTSTRAP_ONE_SHORT,
@@ -99,6 +99,7 @@ MISCONCEPTIONS = (
     BOOTSTRAP_ONE_SHORT,
     ONE_REWARD_TOO_MANY,
     STEP_UNDISCOUNTED,
+    UNDISCOUNTED.where_it_shows(),
     BOOTSTRAP_AT_START.where_it_shows(),
     BOOTSTRAP_ONE_STATE_SHORT.where_it_shows(),
     FROM_TIME_0.where_it_shows(),

@@ -9,9 +9,12 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find_and_finish, found_and_finished
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.policy_gradient import TD_ERROR
 from rldrill.solutions.sheet.temporal_difference import (
     ACCUMULATING,
+    DECAY_WITHOUT_GAMMA,
+    DECAY_WITHOUT_LAMBDA,
     ELIGIBILITY_TRACE,
     LITERAL_VALUE,
     REPLACING_TRACE,
@@ -64,7 +67,16 @@ def errors_stale(given: Given, work: Work) -> None:
     _learn(given, work, lambda _state, _before, after: after, lambda start, _values: start)
 
 
-MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING, errors_stale.where_it_shows())
+MISCONCEPTIONS = (
+    LITERAL_VALUE,
+    visited_only,
+    trace_late,
+    ACCUMULATING,
+    errors_stale.where_it_shows(),
+    FORGOT_GAMMA.where_it_shows(),
+    DECAY_WITHOUT_GAMMA.where_it_shows(),
+    DECAY_WITHOUT_LAMBDA.where_it_shows(),
+)
 
 
 def _learn(

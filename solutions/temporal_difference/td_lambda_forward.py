@@ -4,11 +4,12 @@ from rldrill.problems.temporal_difference.td_lambda_forward import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find_and_finish, found_and_finished
+from rldrill.solutions.sheet.fundamentals import UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import FORGOT_ALPHA, NOT_KEPT, NOT_SUBTRACTED, TD_LAMBDA
 from rldrill.solutions.temporal_difference.lambda_return import average, averaged, backwards, known_episode
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (FORGOT_ALPHA, NOT_SUBTRACTED, NOT_KEPT)
+MISCONCEPTIONS = (FORGOT_ALPHA, NOT_SUBTRACTED, NOT_KEPT, UNDISCOUNTED.where_it_shows())
 
 
 def solve(given: Given, work: Work) -> None:

@@ -82,10 +82,10 @@ def test_another_line_is_read(given: dict[str, Any], typed: str, says: str) -> N
 
 
 def test_an_episode_is_counted_twice() -> None:
-    # warm (4 + 4 + 0)/3 = 8/3, and cool (4 + 1 + 1 + 4)/4 = 5/2 for (4 + 1 + 4)/3 = 3
-    episodes = [(["warm", "cool"], [2, 4]), (["warm"], [4]), (["warm"], [0]), (["cool"], [1]), (["cool"], [4])]
+    # warm (4 + 4 + 0)/3 = 8/3, and cool (4 + 1 + 1 + 7)/4 = 13/4 for (4 + 1 + 7)/3 = 4
+    episodes = [(["warm", "cool"], [2, 4]), (["warm"], [4]), (["warm"], [0]), (["cool"], [1]), (["cool"], [7])]
     given = {"episodes": [{"states": states, "rewards": rewards} for states, rewards in episodes], "gamma": "1/2"}
-    said = rldrill.read({"family": "batch-td-and-mc", "given": given}).diagnose("8/3, 5/2").sentence
+    said = rldrill.read({"family": "batch-td-and-mc", "given": given}).diagnose("8/3, 13/4").sentence
     assert said.startswith("It looks as if the fourth of the episodes is counted twice")
 
 

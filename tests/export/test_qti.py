@@ -87,7 +87,7 @@ SLIPS = (
 )
 def test_a_wrong_entry_costs_what_the_exam_says(rules: dict[str, Any], earned: tuple[Fraction, Fraction]) -> None:
     """Of 1 + 1 points and of 3 + 1 + 1."""
-    asked = items("linearise/1/771", "policy-improvement/2/1", **rules)
+    asked = items("linearise/1/26", "policy-improvement/2/1", **rules)
     for item, typed, worth in zip(asked, SLIPS, earned, strict=True):
         assert float(score(item, typed)) == pytest.approx(float(worth), abs=1e-4)
     right = {**SLIPS[0], "R_a_3": "-8.66"}
@@ -95,6 +95,6 @@ def test_a_wrong_entry_costs_what_the_exam_says(rules: dict[str, Any], earned: t
 
 
 def test_a_part_of_which_a_box_is_empty_earns_nothing_where_a_wrong_entry_costs_all() -> None:
-    (item,) = items("linearise/1/771")
+    (item,) = items("linearise/1/26")
     assert score(item, {"R_b_1": "0"}) == 0
     assert score(item, {"R_b_1": "0", "R_b_2": "0.5"}) == 1

@@ -348,7 +348,7 @@ def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, an
     # (b) asks for Ã = [3/4 −1; 0 1]: 1 − 1/2·2/(2·√4) = 3/4, 4 + 1/2·(6 − 2·√4) = 5, 5 − 3/4·4 − 1/2·6 = −1; the last
     # row is 0 1 in every draw.
     path = tmp_path / "answers.csv"
-    path.write_text(f'{HEAD}Ann,,linearise-affine/1/1627,b,"{answer}"\n')
+    path.write_text(f'{HEAD}Ann,,linearise-affine/1/6,b,"{answer}"\n')
     (part,) = [part for part in verify([path]).parts if part.part == "b"]
     assert part.score.points == share * part.score.of
     rules = Settings(rules=Rules(partial="all"))
@@ -530,17 +530,17 @@ def test_answers_that_leave_something_open_earn_nothing(tmp_path: Path) -> None:
 
 
 def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
-    # linearise-affine/1/1627 (b) is [3/4 −1; 0 1], see above; its last row is the same in every draw.
+    # linearise-affine/1/6 (b) is [3/4 −1; 0 1], see above; its last row is the same in every draw.
     path = tmp_path / "exam.json"
     shares = []
     for partial in ("entries", ("entries", "all", "entries"), None):
-        asked = Asked(id="linearise-affine/1/1627", partial=partial)
+        asked = Asked(id="linearise-affine/1/6", partial=partial)
         path.write_bytes(written(manifest(plan(Blueprint(problems=(asked,), seed=7)))))
         (ann,) = graded(tmp_path, [("Ann", "", "1", "b", "3/4, 2; 0, 1")], Assignment(path)).students
         shares += [part.score.share for part in ann.parts if part.part == "b"]
     assert shares == [Fraction(1, 2), 0, 0]
     with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
-        plan(Blueprint(problems=(Asked(id="linearise-affine/1/1627", partial=("all",)),), seed=7))
+        plan(Blueprint(problems=(Asked(id="linearise-affine/1/6", partial=("all",)),), seed=7))
 
 
 def test_a_file_that_is_named_twice_is_read_once(tmp_path: Path) -> None:

@@ -158,7 +158,7 @@ def test_the_names_of_states_and_actions_are_no_letters_of_a_notation() -> None:
         ("sutton-barto", "ppo-clip/1/3", ["Aₜ is the estimated advantage of the action aₜ"], "Sₜ"),
         ("sutton-barto", "importance-sampling/3/3", ["p is left open", "v̂_π(medium)"], r"V|p\("),
         ("sutton-barto", "lqr-backward/3/45", ["a₀ = 2/5", "Aₜ"], "A₀ = 2/5"),
-        ("sutton-barto", "action-value/2/2", ["p = π(fast|warm)", "Pₛₛ′ᵃ"], r"p\(s′"),
+        ("sutton-barto", "action-value/2/24", ["p = π(fast|warm)", "Pₛₛ′ᵃ"], r"p\(s′"),
     ],
 )
 def test_no_notation_takes_a_letter_of_the_problems_own(notation: str, id: str, kept: list[str], never: str) -> None:

@@ -298,8 +298,8 @@ TABLE = ("-6, 0, -3", "medium: 4.44, critical: 9.4")
         ("td-zero/2/18", {"own": ("entries", "all")}, TABLE, 3, 4),
         # the return is 2, then 9 + 1/3·2 = 29/3
         ("return/1/2166", {"decimal_mark": ","}, ("2,0", "9,67"), 2, 2),
-        # linearise-affine/1/1627 (b) is [3/4 −1; 0 1]: the last row is 0 1 in every draw
-        ("linearise-affine/1/1627", {"partial": "entries"}, ("", "7 7; 0 1"), 0, None),
+        # linearise-affine/1/6 (b) is [3/4 −1; 0 1]: the last row is 0 1 in every draw
+        ("linearise-affine/1/6", {"partial": "entries"}, ("", "7 7; 0 1"), 0, None),
     ],
 )
 def test_the_points_in_the_terminal_are_those_that_verify_gives_by_the_manifest(

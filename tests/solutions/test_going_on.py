@@ -1,5 +1,6 @@
 """Going on from somebody's own answers, whatever they are."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -61,3 +62,12 @@ def test_any_number_may_be_gone_on_from(name: str, level: int) -> None:
 def test_a_sum_that_two_parts_share_costs_once(given: dict[str, Any], answers: dict[str, str]) -> None:
     graded = rldrill.read({"family": "model-fitting", "given": given}).grade(answers)
     assert graded[list(answers)[-1]].outcome is Outcome.FOLLOW_THROUGH
+
+
+def test_a_discount_that_was_found_can_be_forgotten_afterwards() -> None:
+    # 1 + 4γ = 3, so γ = 1/2, and μ₂ = 2 + 6/2 = 5; without γ the first equation says nothing, and μ₂ = 2 + 6 = 8.
+    given = {"trajectories": [["a", "b"]], "features": {"a": [1, 2], "b": [4, 6]}, "gamma": "gamma", "estimate": 3}
+    exercise = rldrill.read({"family": "feature-expectations", "given": given})
+    assert exercise.answers() == {"a": Fraction(1, 2), "b": 5}
+    for earlier in ({"a": "1/2"}, {}):
+        assert exercise.diagnose("8", "b", earlier).sentence == "The features at time t count with γᵗ."

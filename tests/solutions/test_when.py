@@ -31,6 +31,8 @@ OTHER_QUESTION = {
     "lengths-exchanged": "of more than two links several could be exchanged",
     "value-kept-at-the-end": "where a value is missing, its equation comes first",
     "absolute-rates": "of more than two links it is not worked out",
+    "absolute-angles-differentiated": "the angle of the last link is a row, too",
+    "parameters-exchanged": "of three models several could be; on the border both ways have the same n",
     "update-for-target": "the step size is not stated where no target needs it, or is asked for",
 }
 
