@@ -5,7 +5,7 @@ import unicodedata
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpq
 from msgspec import Struct
@@ -104,7 +104,7 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
     if missing := what_is_missing(solution, part, cells):
-        return _partly(solution, part, cells, missing)
+        return _partly(solution, part, cells, missing, earlier or {})
     value = answer_kind(part.kind).value({name: _content(cell) for name, cell in cells.items()})
     return _judge(solution, part, cells, value, _read(cells), dict(earlier or {}))
 
@@ -183,47 +183,107 @@ def part_of(solution: Solution, label: str) -> Part:
     raise KeyError(label)
 
 
-def _partly(solution: Solution, part: Part, cells: dict[str, Cell], missing: str) -> Verdict:
-    """The judgement of an answer that leaves entries out: they are wrong ones."""
+class _Left(NamedTuple):
+    """The cells that are left wrong, with what would be right there; whether the rest goes on from own answers."""
+
+    right: Mapping[str, tuple[Any, ...]]
+    goes_on: bool = False
+
+    @property
+    def wrong(self) -> tuple[str, ...]:
+        """The names of the cells."""
+        return tuple(self.right)
+
+
+def _left(solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Mapping[str, Any]) -> _Left:
+    """What is wrong by the key, and by what follows from the person's own earlier answers.
+
+    Every number may be the one or the other. A policy is held against one of them as a whole, that which leaves fewer
+    wrong: of two actions each would be right, where the two differ.
+    """
     key = answer_kind(part.kind).cells(solution.answers[part.label])
     wrong = wrong_cells(cells, key)
-    says = _says_wrong([name if name in cells else f"{name} (left out)" for name in wrong], len(key))
-    earned = credit(part.kind, len(key), len(wrong))
-    return Verdict(Outcome.WRONG, says, earned, _read(cells), wrong_cells=wrong, missing=missing)
+    ways = _following(solution, part, earlier) if wrong and earlier else []
+    if isinstance(part.kind, Policy):
+        way = min([key, *ways], key=lambda each: len(wrong_cells(cells, each)))
+        return _Left({name: (way[name],) for name in wrong_cells(cells, way)}, way is not key)
+    left = set(wrong).intersection(*(wrong_cells(cells, way) for way in ways))
+    return _Left({name: (key[name], *(way[name] for way in ways)) for name in wrong if name in left}, left < set(wrong))
+
+
+def _following(solution: Solution, part: Part, earlier: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The cells of what follows from the person's own earlier answers; none where that is no answer."""
+    answers = solution.following(earlier)
+    if part.label not in answers:
+        return []
+    try:
+        return [answer_kind(part.kind).cells(answers[part.label])]
+    except NotReal:
+        return []  # an odd earlier answer leads to what is no real number: nobody can have typed it
+
+
+def _partly(
+    solution: Solution, part: Part, cells: dict[str, Cell], missing: str, earlier: Mapping[str, Any]
+) -> Verdict:
+    """The judgement of an answer that leaves entries out: they are wrong ones."""
+    key = answer_kind(part.kind).cells(solution.answers[part.label])
+    left = _left(solution, part, cells, earlier)
+    named = [name if name in cells else f"{name} (left out)" for name in left.wrong]
+    earned = credit(part.kind, len(key), len(left.wrong))
+    says = _says_wrong(part.kind, named, len(key), goes_on=left.goes_on)
+    return Verdict(Outcome.WRONG, says, earned, _read(cells), wrong_cells=left.wrong, missing=missing)
 
 
 def _judge(
     solution: Solution, part: Part, cells: dict[str, Cell], value: Any, read: str, earlier: dict[str, Any]
 ) -> Verdict:
-    label = part.label
-    key = answer_kind(part.kind).cells(solution.answers[label])
-    wrong = wrong_cells(cells, key)
-    if not wrong:
-        return Verdict(Outcome.RIGHT, "Right.", Fraction(1), read, value=value)
-    if earlier and matches(part, cells, solution.following(earlier)):
-        return Verdict(
-            Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer.", Fraction(1), read, value=value
-        )
+    left = _left(solution, part, cells, earlier)
+    if not left.right:
+        outcome, says = Outcome.RIGHT, "Right."
+        if left.goes_on:
+            outcome, says = Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer."
+        return Verdict(outcome, says, Fraction(1), read, value=value)
     made = _made(solution, part, cells, earlier)
-    earned = credit(part.kind, len(key), len(wrong))
-    named = tuple(name for name in wrong if name)
+    count = len(solution.cells[part.label])
+    earned = credit(part.kind, count, len(left.right))
+    named = tuple(name for name in left.right if name)
     if told := _told(part.kind, made):
         says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
         return Verdict(Outcome.MISCONCEPTION, says, earned, read, made, named, value, told)
-    if all(_is_close(cells[name], key[name]) for name in wrong):
-        cut = [_is_cut_off(cells[name], key[name]) for name in wrong]
-        short = all(done or _is_short(cells[name], key[name]) for name, done in zip(wrong, cut, strict=True))
-        says = _CUT_OFF if all(cut) else _SHORT if short else _CLOSE
-        return Verdict(Outcome.CLOSE, says, earned, read, (), named, value)
-    return Verdict(Outcome.WRONG, _says_wrong(named, len(key)), earned, read, made, named, value)
+    if near := _close_to(cells, left.right):
+        return Verdict(Outcome.CLOSE, _says_close(cells, near), earned, read, (), named, value)
+    says = _says_wrong(part.kind, named, count, goes_on=left.goes_on)
+    return Verdict(Outcome.WRONG, says, earned, read, made, named, value)
 
 
-def _says_wrong(named: Sequence[str], cells: int) -> str:
+def _close_to(cells: Mapping[str, Cell], right: Mapping[str, tuple[Any, ...]]) -> dict[str, Value]:
+    """What the wrong cells are close to; nothing, unless all of them are close to something."""
+    near = {
+        name: content
+        for name, contents in right.items()
+        for content in reversed(contents)
+        if _is_close(cells[name], content)
+    }
+    return near if len(near) == len(right) else {}
+
+
+def _says_close(cells: Mapping[str, Cell], near: Mapping[str, Value]) -> str:
+    cut = [_is_cut_off(cells[name], content) for name, content in near.items()]
+    short = all(done or _is_short(cells[name], near[name]) for name, done in zip(near, cut, strict=True))
+    return _CUT_OFF if all(cut) else _SHORT if short else _CLOSE
+
+
+def _says_wrong(kind: Kind, named: Sequence[str], cells: int, *, goes_on: bool) -> str:
     if not 0 < len(named) < cells:
         return "Not right."
     *first, last = named
     between = "; " if any(", " in name for name in named) else ", "
-    return f"Not right at {f'{between.join(first)} and ' if first else ''}{last}; the rest is right."
+    where = f"{f'{between.join(first)} and ' if first else ''}{last}"
+    if not goes_on:
+        return f"Not right at {where}; the rest is right."
+    if isinstance(kind, Policy):
+        return f"At {where} this does not go on from your earlier answer; the rest does."
+    return f"Not right at {where}; the rest is right, going on from your earlier answer."
 
 
 def credit(kind: Kind, cells: int, wrong: int) -> Fraction:

@@ -1,6 +1,7 @@
 """The rule for answers, and the verdicts that come of it."""
 
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,6 +12,8 @@ from hypothesis import strategies as st
 
 import rldrill
 from numbers_drawn import small
+from rldrill.grading.answers_file import Entry
+from rldrill.grading.marking import Judging, Rules
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
 from rldrill.problems.parts import Numbers, Policy, Values
@@ -293,6 +296,81 @@ def test_a_slip_costs_once() -> None:
 
 
 _CLOSE = "Close, but not right: look for a slip, or for numbers that were rounded on the way."
+
+
+#: R₁ = 8 and R₀ = −1 + 3/4·8 = 5; V(reef) = −2 + 1/2·7 = 3/2 and V(bay) = 4 + 1/2·4 = 6.
+BAY = {
+    "trajectory": {"states": ["reef", "bay", "harbour"], "rewards": [-1, 8], "terminal": ["harbour"]},
+    "values": {"reef": -2, "bay": 4},
+    "alpha": "1/2",
+    "gamma": "3/4",
+    "visits": "every",
+}
+_GOES_ON = "Right, going on from your earlier answer."
+
+
+@pytest.mark.parametrize(
+    ("typed", "credit", "says", "wrong"),
+    [
+        # From the returns 1 and 10: V(reef) = −2 + 1/2·3 = −1/2 and V(bay) = 4 + 1/2·6 = 7.
+        ("reef: -1/2, bay: 7", 1, _GOES_ON, ()),
+        ("reef: 3/2, bay: 7", 1, _GOES_ON, ()),
+        ("reef: 3/2, bay: 6", 1, "Right.", ()),
+        ("reef: 3/2, bay: 9", Fraction(1, 2), "Not right at bay; the rest is right.", ("bay",)),
+        (
+            "reef: -1/2, bay: 9",
+            Fraction(1, 2),
+            "Not right at bay; the rest is right, going on from your earlier answer.",
+            ("bay",),
+        ),
+        ("reef: 8, bay: 9", 0, "Not right.", ("reef", "bay")),
+        ("reef: -1/2, bay: 7.1", Fraction(1, 2), _CLOSE, ("bay",)),
+        (
+            "reef: -1/2",
+            Fraction(1, 2),
+            "Not right at bay (left out); the rest is right, going on from your earlier answer.",
+            ("bay",),
+        ),
+    ],
+)
+def test_every_number_is_right_or_goes_on(typed: str, credit: Fraction, says: str, wrong: tuple[str, ...]) -> None:
+    solution = problem("monte-carlo", **BAY)
+    verdict = judge(solution, "b", typed, {"a": judge(solution, "a", "1, 10").value})
+    assert (verdict.credit, verdict.says, verdict.wrong_cells) == (credit, says, wrong)
+
+
+def test_what_goes_on_earns_its_share_wherever_it_is_graded() -> None:
+    # From the returns 1 and 10 V(reef) is −1/2; the value of bay is neither 6 nor 7.
+    given_ = rldrill.Exercise(problem("monte-carlo", **BAY))
+    texts = {"a": "1, 10", "b": "reef: -1/2, bay: 9"}
+    graded = given_.grade(texts)
+    assert graded["b"].points == Fraction(graded["b"].of, 2)
+    entries = {part: Entry("", "bay", part, text, None, Path("bay.csv")) for part, text in texts.items()}
+    (_, _, judged) = Judging(given_, Rules(), {}).marks(entries)[1]
+    assert judged.score.points == graded["b"].points
+    assert judged.reason.startswith("Not right at bay; the rest is right, going on from your earlier answer.")
+
+
+@pytest.mark.parametrize(
+    ("typed", "credit", "says"),
+    [
+        # By V2 = (100, −200) it is slow in cool (101 > 2 − 50) and fast in warm (−10 > 1 − 50); right is fast, slow.
+        ("cool: slow, warm: fast", 1, _GOES_ON),
+        ("cool: fast, warm: slow", 1, "Right."),
+        ("cool: slow, warm: slow", 0, "Not right at cool; the rest is right."),
+        ("cool: fast, warm: fast", 0, "Not right at warm; the rest is right."),
+    ],
+)
+def test_of_two_actions_not_both_are_right(typed: str, credit: int, says: str) -> None:
+    _, verdict = verdicts("cool: 100, warm: -200", typed)
+    assert (verdict.credit, verdict.says) == (credit, says)
+
+
+def test_a_policy_goes_on_as_a_whole() -> None:
+    # By V2 = (50, 0) it is slow in both: 51 > 2 + 25 and 1 + 25 > −10; right is fast in cool.
+    _, verdict = verdicts("cool: 50, warm: 0", "cool: slow, warm: fast")
+    assert verdict.says == "At warm this does not go on from your earlier answer; the rest does."
+    assert (verdict.credit, verdict.wrong_cells) == (0, ("warm",))
 
 
 def test_close_says_so_and_earns_nothing() -> None:
