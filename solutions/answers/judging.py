@@ -203,7 +203,7 @@ def _left(solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Ma
     """
     key = answer_kind(part.kind).cells(solution.answers[part.label])
     wrong = wrong_cells(cells, key)
-    ways = _following(solution, part, earlier) if wrong and earlier else []
+    ways = _following(solution, part, cells, earlier) if wrong and earlier else []
     if isinstance(part.kind, Policy):
         way = min([key, *ways], key=lambda each: len(wrong_cells(cells, each)))
         return _Left({name: (way[name],) for name in wrong_cells(cells, way)}, way is not key)
@@ -211,15 +211,19 @@ def _left(solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Ma
     return _Left({name: (key[name], *(way[name] for way in ways)) for name in wrong if name in left}, left < set(wrong))
 
 
-def _following(solution: Solution, part: Part, earlier: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The cells of what follows from the person's own earlier answers; none where that is no answer."""
+def _following(
+    solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Mapping[str, Any]
+) -> list[dict[str, Any]]:
+    """The cells of what follows from the person's own earlier answers; none where that is nothing to compare with."""
     answers = solution.following(earlier)
     if part.label not in answers:
         return []
     try:
-        return [answer_kind(part.kind).cells(answers[part.label])]
+        way = answer_kind(part.kind).cells(answers[part.label])
+        wrong_cells(cells, way)
     except NotReal:
         return []  # an odd earlier answer leads to what is no real number: nobody can have typed it
+    return [way]
 
 
 def _partly(
