@@ -375,9 +375,17 @@ def _words(source: Source) -> list[Source]:
 
 
 def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
-    """Keys with what they are given behind them: ``cool 3.5, warm 2.5``."""
+    """Keys with what they are given behind them: ``cool 3.5, warm 2.5``; at last perhaps ``others 2``.
+
+    Raises:
+        Unreadable: beside keys there is another name.
+    """
     found: dict[Key, Source] = {}
-    for piece in body.split(",;\n|"):
+    pieces = filled(body.split(",;\n|"))
+    for piece in pieces:
+        if found and piece is pieces[-1] and (rest := _REST.match(piece.text)) and piece.text[rest.end() :][:1] == " ":
+            others = piece.part(rest.end(), len(piece.text))
+            return {key: found.get(key, others) for key in asked.keys}
         words = _words(piece)
         if len(words) > 2 * asked.most:
             return None
@@ -386,6 +394,7 @@ def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
             more = (n for n in range(length + 1, len(words)) if _is_name(words[n : n + 1], 1, asked))
             stop = next(more, len(words))
             if not length or stop == length:
+                _refuse_other_names(pieces, asked)
                 return None
             key = _key(words[:length], asked)
             value = Source(" ".join(word.text for word in words[length:stop]), words[length].start)
@@ -398,6 +407,30 @@ def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
                 found[key] = value
             words = words[stop:]
     return found
+
+
+def _refuse_other_names(pieces: Sequence[Source], asked: Asked[Key]) -> None:
+    """Refuse a name that is no key, where each piece is a name and what it is given, and some of them are keys.
+
+    Raises:
+        Unreadable: there is one.
+    """
+    names = [_name_before(piece, asked) for piece in pieces]
+    if all(names) and any(_known(name, asked) for name in names):
+        for name, piece in zip(names, pieces, strict=True):
+            the_key(name, asked.keys, asked.ends, piece)
+
+
+def _name_before(piece: Source, asked: Asked[Key]) -> str:
+    """What stands before a number or an action, if these are words."""
+    *words, value = _words(piece)
+    of_value = _NUMERIC.match(value.text) if asked.numbers else any(_goes_on(value.text, asked))
+    name = " ".join(word.text for word in words)
+    return name if of_value and re.fullmatch(r"[^\W\d_][^\W\d]+(?: [^\W\d]+)*", name) else ""
+
+
+def _goes_on(word: str, asked: Asked[Key]) -> Iterator[bool]:
+    return (asked.goes_on is not None and asked.goes_on(word, key) for key in asked.keys)
 
 
 def _is_name(words: Sequence[Source], length: int, asked: Asked[Key]) -> bool:

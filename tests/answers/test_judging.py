@@ -419,6 +419,15 @@ def test_a_terminal_state_may_be_given_its_zero() -> None:
     assert "'overheated' is terminal" in verdicts("cool: 3.5, warm: 2.5, overheated: -10")[0].says
 
 
+@pytest.mark.parametrize("zero", [", goal: 0", ", goal 0"])
+def test_the_goal_of_a_graph_may_be_given_its_zero(zero: str) -> None:
+    # From b to the goal 2; from a through b 1 + 2.
+    solution = problem("principle-of-optimality", edges=[["a", "b", 1], ["b", "goal", 2]], start="a", goal="goal")
+    typed = f"a{zero[6]} 3, b{zero[6]} 2{zero}".replace("  ", " ")
+    assert judge(solution, "a", typed).outcome is Outcome.RIGHT
+    assert "'goal' is terminal" in judge(solution, "a", "a: 3, b: 2, goal: 1").says
+
+
 def test_an_action_in_a_terminal_state_may_be_given_its_zero() -> None:
     # Q(a, left) = 0 + 1/2·(4 + 0 − 0): what follows is the end, whose actions are worth nothing.
     moves = {"states": ["a", "end"], "actions": ["left"], "rewards": [4], "terminal": ["end"]}

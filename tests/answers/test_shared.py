@@ -55,7 +55,7 @@ def test_one_value_for_all_states(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["up: 2/3, others: 1/6", "up = 2/3, all others = 1/6", "up: 2/3; the rest: 1/6",
-                                  "up: 2/3, others: 1/6, goal: 0"])  # fmt: skip
+                                  "up 2/3, others 1/6", "up: 2/3, others: 1/6, goal: 0"])  # fmt: skip
 def test_what_is_not_named_is_the_rest(text: str) -> None:
     read = read_table(text, ["left", "up", "right"], ends=["goal"])
     assert [reading.value for reading in read.values()] == [fmpq(1, 6), fmpq(2, 3), fmpq(1, 6)]

@@ -748,6 +748,8 @@ def test_a_key_before_a_value_shares_it_unless_it_has_one_of_its_own(text: str) 
     [
         ("cool: 1, cool: 2", "cool is given twice"),
         ("cool: 1, hot: 2", "'hot' is not a key here; the keys are cool, warm."),
+        ("cool 1, hot 2", "'hot' is not a key here; the keys are cool, warm."),
+        ("hot 1, warm 2", "'hot' is not a key here; the keys are cool, warm."),
         ("cool: 3,5, warm: 2,5", "may have a decimal comma; write '3.5'."),
         ("cool: 1 hot: 2", "holds two keys; put a comma between them"),
         ("cool: foo, warm: 2", "cool: 'foo' is not"),
