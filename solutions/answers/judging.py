@@ -2,7 +2,8 @@
 
 import re
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from enum import Enum
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -203,7 +204,7 @@ def _left(solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Ma
     """
     key = answer_kind(part.kind).cells(solution.answers[part.label])
     wrong = wrong_cells(cells, key)
-    ways = _following(solution, part, cells, earlier) if wrong and earlier else []
+    ways = list(_following(solution, part, cells, earlier)) if wrong and earlier else []
     if isinstance(part.kind, Policy):
         way = min([key, *ways], key=lambda each: len(wrong_cells(cells, each)))
         return _Left({name: (way[name],) for name in wrong_cells(cells, way)}, way is not key)
@@ -213,17 +214,14 @@ def _left(solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Ma
 
 def _following(
     solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Mapping[str, Any]
-) -> list[dict[str, Any]]:
-    """The cells of what follows from the person's own earlier answers; none where that is nothing to compare with."""
-    answers = solution.following(earlier)
-    if part.label not in answers:
-        return []
-    try:
-        way = answer_kind(part.kind).cells(answers[part.label])
-        wrong_cells(cells, way)
-    except NotReal:
-        return []  # an odd earlier answer leads to what is no real number: nobody can have typed it
-    return [way]
+) -> Iterator[dict[str, Any]]:
+    """The cells of what follows from the person's own earlier answers, as far as it can be compared with."""
+    for answers in solution.ways(earlier):
+        with suppress(NotReal):  # an odd earlier answer leads to what is no real number: nobody can have typed it
+            if part.label in answers:
+                way = answer_kind(part.kind).cells(answers[part.label])
+                wrong_cells(cells, way)
+                yield way
 
 
 def _partly(
