@@ -227,6 +227,33 @@ def test_whoever_may_have_handed_in_is_not_said_to_have_handed_in_nothing(tmp_pa
     assert "perhaps it is under one that is not on the roster" in student(report, "Ben Ali").unread
 
 
+def test_blank_answers_are_a_hand_in(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    report = graded(tmp_path, [("Ann Lee", "", "1", "a", ""), ("", "8", "2", "a", " ")], Assignment(path))
+    ann = student(report, "Ann Lee")
+    assert [(part.judged.verdict, part.score.points) for part in ann.parts] == [("missing", 0)] * 3
+    assert (ann.unread, report.refused, report.exit_code) == ("", (), 1)
+    assert student(report, "Ben Ali").unread == ""
+
+
+@pytest.mark.parametrize("content", ['student = "Ann Lee"', 'student = "Ann Lee"\n[1]\n'])
+def test_a_file_with_nothing_but_a_name_is_a_hand_in(tmp_path: Path, content: str) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    (tmp_path / "ann.toml").write_text(content)
+    report = verify([tmp_path / "ann.toml"], Settings(assignment=Assignment(path)))
+    assert [(each.student, each.unread) for each in report.students] == [
+        ("Ann Lee", "handed in, without an answer"),
+        ("Ben Ali", ""),
+    ]
+    assert report.exit_code == 1
+
+
+@pytest.mark.parametrize(("known", "typed"), [("Ben O\u2019Hara", "ben O'Hara"), ("Li-Lei", "Li\u2010Lei")])
+def test_apostrophes_and_hyphens_are_alike_in_names(tmp_path: Path, known: str, typed: str) -> None:
+    path, _ = exam(tmp_path, roster=(Person(known, "8"), Person("Ben Ali", "9")))
+    assert graded(tmp_path, [(typed, "", "1", "a", "1")], Assignment(path)).students[0].student == known
+
+
 def test_of_two_of_one_name_nobody_is_said_to_have_handed_in_for_certain(tmp_path: Path) -> None:
     path, _ = exam(tmp_path)
     roster = tmp_path / "roster.csv"
