@@ -12,6 +12,7 @@ from rldrill.problems.spelling import VULGAR, Source, Unreadable, quoted
 
 DIGITS = 40  # longer numbers are slips of the keyboard, or mischief;
 WHOLE_DIGITS = 2000  # but whole ones may come from a program
+POWER_OF_TEN = 1000  # the probability of hundreds of tosses is as small
 _DEPTH = 40
 _OPERATIONS = 300
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
@@ -382,7 +383,12 @@ class _Parser:
         mantissa, _, exponent = digits.lower().partition("e")
         most = WHOLE_DIGITS if digits.isdigit() else DIGITS
         longest = max(len(part) for part in mantissa.replace(".", "").split("/"))
-        if longest > most or len(exponent) > most or abs(int(exponent or 0)) > DIGITS:
+        if exponent and (len(exponent) > DIGITS or abs(int(exponent)) > POWER_OF_TEN):
+            raise self._error(
+                f"The power of ten in {quoted(token.text)} is too large; {POWER_OF_TEN} is the largest that is read.",
+                token,
+            )
+        if longest > most:
             raise self._error(f"{quoted(token.text)} is too long for a number; {most} digits are the most.", token)
         try:
             return fraction_of(digits)
