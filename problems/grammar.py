@@ -15,7 +15,7 @@ WHOLE_DIGITS = 2000  # but whole ones may come from a program
 POWER_OF_TEN = 1000  # the probability of hundreds of tosses is as small
 _DEPTH = 40
 _OPERATIONS = 300
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
+RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
 _DOTS = r"\s?(?:…|⋯|\.{2,})"
 _BAR, _DOT = "\u0305\u0304", "\u0307"  # over the digits that repeat; over the first and last of them
 # Numbers as programs write them: np.sqrt(2), Fraction(1, 4), Sqrt[2]
@@ -326,7 +326,7 @@ class _Parser:
             if sign.kind == "%":
                 node = self._operation("%", sign, node)
                 continue
-            digits = re.fullmatch("([+-]?)([0-9]{1,3})", sign.text.translate(_RAISED))
+            digits = re.fullmatch("([+-]?)([0-9]{1,3})", sign.text.translate(RAISED))
             if not digits:
                 raise self._error(f"The exponent {quoted(sign.text)} is not understood; write it as ^2.", sign)
             exponent: Node = Numeral(fraction_of(digits[2]), digits[2], sign.at)
@@ -418,7 +418,7 @@ class _Parser:
         """The power that stands between a function of angles and what it is taken of: sin²(θ), sin^2 θ."""
         raised = self._ahead("raised")
         ahead = self._ahead("^", "number") or self._ahead("^", "{", "number", "}") or raised
-        digits = "".join(each.text for each in ahead).translate(_RAISED).strip("^{}")
+        digits = "".join(each.text for each in ahead).translate(RAISED).strip("^{}")
         if name not in _OF_ANGLES or not re.fullmatch("[2-9]", digits):
             return None
         if self._tokens[self._next + len(ahead)].kind not in ("name", *_BRACKETS):
