@@ -440,7 +440,7 @@ class FollowedLine(Struct, frozen=True):
     Args:
         text: what was written.
         standing: ``right``; ``follows`` from a line that departed; ``miscalculated`` where its own sides are not equal;
-            ``departs`` from the working; ``unread``.
+            ``departs`` from the working; ``short`` of digits; ``unread``.
         sentence: what is said of it; empty where all is well.
         step: the number of the step that it gives, among all steps of the working, from 0.
         kind: what it comes from, where it departs and that is known.
@@ -471,7 +471,12 @@ class Followed(Struct, frozen=True):
             return self.lines[self.first].sentence
         if all(line.standing == Standing.UNREAD.value for line in self.lines):
             return "No line of this could be read; write lines such as “V1 = 8 + 1/2*4 = 10”."
-        return "All of this is right as far as it goes."
+        short = next((line.sentence for line in self.lines if line.standing == Standing.SHORT.value), "")
+        unread = sum(line.standing == Standing.UNREAD.value for line in self.lines)
+        if unread:
+            were = "one line was" if unread == 1 else f"{unread} lines were"
+            return f"{short} {were.capitalize()} not judged." if short else f"The rest is right; {were} not judged."
+        return short or "All of this is right as far as it goes."
 
 
 def followed(search: Search, texts: Sequence[str]) -> Followed:
@@ -483,7 +488,9 @@ def _followed(line: Line, applications: Sequence[Application]) -> FollowedLine:
     step = None if line.application is None else line.application.nth
     where = "" if line.application is None else _sentence(place(line.application, applications))
     said, kind = "", ""
-    if line.standing is Standing.UNREAD:
+    if line.standing is Standing.SHORT:
+        said = f"Right, but with too few digits{where}: go on with an exact value, or with three digits."
+    elif line.standing is Standing.UNREAD:
         said = "This line was not understood, and is passed over."
     elif line.standing is Standing.MISCALCULATED:
         one, two = line.sides

@@ -8,14 +8,13 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.document import joined
 from rldrill.problems.expressions import GREEK
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
-from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
+from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, is_short, tolerance
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import Reading, Unreadable
 from rldrill.solutions.exact import NotReal, Value, absolute, is_rational, sign
@@ -29,8 +28,6 @@ _NAMED = 3
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 _SHORT = "Right idea; give an exact value or three digits."
 _CLOSE = "Close, but not right: look for a slip, or for numbers that were rounded on the way."
-#: The units of the last digit of short decimals, the largest first.
-_UNITS = tuple(fmpq(1, 10**places) for places in range(10))
 #: A line of a working that says what it works out: the head of the name and its index, R and 0 of R_0^(2) = 2.
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)(?:_?\{?([0-9]+))?[^=:≈\n]*+[=:≈]")
 #: A name that can be no number.
@@ -387,13 +384,7 @@ def _is_close(cell: Cell, key: Value) -> bool:
 
 
 def _is_short(cell: Cell, key: Value) -> bool:
-    """Whether a number is the key, rounded or cut off where its own digits end, which are fewer than three."""
-    if not isinstance(cell, Reading) or not is_rational(cell.value):
-        return False
-    unit = next((unit for unit in _UNITS if (cell.value / unit).q == 1), None)
-    if unit is None or abs(cell.value) >= 100 * unit:
-        return False
-    return sign(unit - absolute(key - cell.value)) > 0
+    return isinstance(cell, Reading) and is_short(cell.value, key)
 
 
 def _is_cut_off(cell: Cell, key: Value) -> bool:

@@ -323,3 +323,65 @@ def test_a_line_is_handed_back_as_it_was_typed() -> None:
     with used("control"):
         told = rldrill.load("linearise/1/5").follow(["A_21 = $-10$", " ", "$5$"])
     assert [line.text for line in told.lines] == ["A_21 = $-10$", "$5$"]
+
+
+#: V(a) ← 1/3·7 = 7/3, then V(b) ← 1/3·(1 + 7/3) = 10/9; with 2.3 for the first the second is 1.1.
+THIRDS = {
+    "family": "td-zero",
+    "given": {
+        "trajectory": {"states": ["a", "b", "a"], "rewards": [7, 1]},
+        "values": {"a": 0, "b": 0},
+        "alpha": "1/3",
+        "gamma": 1,
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("lines", "standings"),
+    [
+        (["V(a) = 2.33", "V(b) = 1.11"], ["right", "right"]),
+        (["V(a) = 2.3", "V(b) = 1/3*(1 + 2.3) = 1.10"], ["short", "follows"]),
+        (["V(a) = 7/3 = 2.3", "V(b) = 10/9"], ["short", "follows"]),
+        (["V(a) = 2.4"], ["departs"]),
+        (["V(a) = 2.2"], ["departs"]),
+    ],
+)
+def test_a_value_with_too_few_digits_is_told_so(lines: list[str], standings: list[str]) -> None:
+    followed = rldrill.read(THIRDS).follow(lines)
+    assert [line.standing for line in followed.lines] == standings
+    assert ("too few digits" in followed.sentence) == ("short" in standings)
+
+
+# p(z) = 3/5·1/2 + 1/5·1/2 = 2/5 and the belief (3/10, 1/10)/(2/5) = (3/4, 1/4); then the motion gives 3/4 + 4/5·1/4
+# = 19/20 and 1/20, p(z) = 3/5·19/20 + 1/5·1/20 = 29/50, and 57/58.
+DOOR = {
+    "family": "bayes-filter",
+    "given": {
+        "belief": {"open": "1/2", "closed": "1/2"},
+        "run": [{"measurement": "seen open"}, {"action": "push", "measurement": "seen open"}],
+        "likelihood": {"seen open": {"open": "3/5", "closed": "1/5"}},
+        "motion": {"push": {"open": {"open": 1}, "closed": {"open": "4/5", "closed": "1/5"}}},
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("line", "standing"),
+    [
+        ("p(z) = .6*.5 + .2*.5 = .4", "right"), ("p(z) = .6*.5 + .2*.5 = .5", "miscalculated"),
+        ("p(z) = 0.5", "departs"), ("p(seen open) = 2/5", "right"), ("p(z2) = 29/50", "right"),
+        ("p(closed|z) = 1/4", "right"),
+        ("p(closed|z) = .5", "departs"), ("bel(open) = 2.5*.3 = .75", "right"), ("bel(closed) = 1/4", "right"),
+        ("bel(closed)=2.5*.2=.5", "departs"), ("bel_bar(open) = 0.95", "right"), ("bel(seen) = 1/2", "unread"),
+    ],
+)  # fmt: skip
+def test_the_names_of_probabilistic_robotics_are_read(line: str, standing: str) -> None:
+    (told,) = rldrill.read(DOOR).follow([line]).lines
+    assert told.standing == standing
+
+
+def test_what_was_not_judged_is_not_said_to_be_right(run: rldrill.Exercise) -> None:
+    assert run.follow(["V(cave) = 10", "x = 7"]).sentence == "The rest is right; one line was not judged."
+    assert run.follow(["V(cave) = 10", "x = 7", "y = 5"]).sentence == "The rest is right; 2 lines were not judged."
+    assert run.follow(["V(cave) = 10"]).sentence == "All of this is right as far as it goes."
