@@ -8,28 +8,32 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.document import joined
 from rldrill.problems.expressions import GREEK
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
-from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, is_short, tolerance
+from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, is_short, last_digit, tolerance, within
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import Reading, Unreadable
-from rldrill.solutions.exact import NotReal, Value, absolute, is_rational, sign
+from rldrill.solutions.exact import NotReal, Value, absolute, is_rational, parameters, sign
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
 
 #: An answer may be so many times as long as the right one is as it is typed: with decimals, names, and spaces.
 _ROOM = 4
-#: So many of the entries that were left out are named.
+#: So many of the entries that were left out, or have too few digits, are named.
 _NAMED = 3
+_TWO_DIGITS = 10
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 _SHORT = "Right idea; give an exact value or three digits."
 _CLOSE = "Close, but not right: look for a slip, or for numbers that were rounded on the way."
 #: A line of a working that says what it works out: the head of the name and its index, R and 0 of R_0^(2) = 2.
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)(?:_?\{?([0-9]+))?[^=:≈\n]*+[=:≈]")
+#: A decimal, with its last zeros: 1.0.
+_DECIMAL = re.compile(r"-?[0-9]*\.([0-9]{1,4})")
 #: A name that can be no number.
 _WORD = re.compile(r"[^\W\d_]{3,}(?: [^\W\d_]+)*")
 
@@ -249,40 +253,64 @@ def _judge(
     if told := _told(part.kind, made):
         says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
         return Verdict(Outcome.MISCONCEPTION, says, earned, read, made, named, value, told)
-    if near := _close_to(cells, left.right):
-        return Verdict(Outcome.CLOSE, _says_close(cells, near), earned, read, (), named, value)
-    says = _says_wrong(part.kind, named, count, goes_on=left.goes_on)
+    near = _close_to(cells, left.right)
+    short = _with_few_digits(cells, left.right, near)
+    if len({*near, *short}) == len(left.right):
+        return Verdict(Outcome.CLOSE, _says_close(cells, near, short), earned, read, (), named, value)
+    says = _says_wrong(part.kind, named, count, goes_on=left.goes_on, short=short)
     return Verdict(Outcome.WRONG, says, earned, read, made, named, value)
 
 
 def _close_to(cells: Mapping[str, Cell], right: Mapping[str, tuple[Any, ...]]) -> dict[str, Value]:
-    """What the wrong cells are close to; nothing, unless all of them are close to something."""
-    near = {
+    """What each wrong cell is close to, as far as it is close to something."""
+    return {
         name: content
         for name, contents in right.items()
         for content in reversed(contents)
         if _is_close(cells[name], content)
     }
-    return near if len(near) == len(right) else {}
 
 
-def _says_close(cells: Mapping[str, Cell], near: Mapping[str, Value]) -> str:
-    cut = [_is_cut_off(cells[name], content) for name, content in near.items()]
-    short = all(done or _is_short(cells[name], near[name]) for name, done in zip(near, cut, strict=True))
-    return _CUT_OFF if all(cut) else _SHORT if short else _CLOSE
+def _with_few_digits(
+    cells: Mapping[str, Cell], right: Mapping[str, tuple[Any, ...]], near: Mapping[str, Value]
+) -> list[str]:
+    """The wrong cells that are rounded where their own digits end; beside one that surely is, also those of few."""
+    sure = [name for name, content in near.items() if _is_short(cells[name], content)]
+    if not sure:
+        return []
+    return [
+        name
+        for name, contents in right.items()
+        if name in sure or any(_is_rounded(cells[name], content) for content in contents)
+    ]
 
 
-def _says_wrong(kind: Kind, named: Sequence[str], cells: int, *, goes_on: bool) -> str:
-    if not 0 < len(named) < cells:
+def _says_close(cells: Mapping[str, Cell], near: Mapping[str, Value], short: Sequence[str]) -> str:
+    if all(_is_cut_off(cells[name], content) for name, content in near.items()) and not {*short} - {*near}:
+        return _CUT_OFF
+    done = {*short, *(name for name, content in near.items() if _is_cut_off(cells[name], content))}
+    return _SHORT if done >= near.keys() else _CLOSE
+
+
+def _says_wrong(kind: Kind, named: Sequence[str], cells: int, *, goes_on: bool, short: Sequence[str] = ()) -> str:
+    off = [name for name in named if name not in short]
+    if not short and not 0 < len(off) < cells:
         return "Not right."
+    if goes_on and isinstance(kind, Policy):
+        return f"At {_these(off)} this does not go on from your earlier answer; the rest does."
+    said = f"Not right at {_these(off)}"
+    if short:
+        where = f"at {_these(short)}" if len(short) <= _NAMED + 1 else f"at {len(short)} others"
+        said += f"; {where} there are too few digits, give three or an exact value"
+    if len(named) == cells:
+        return f"{said}."
+    return f"{said}; the rest is right{', going on from your earlier answer' if goes_on else ''}."
+
+
+def _these(named: Sequence[str]) -> str:
     *first, last = named
     between = "; " if any(", " in name for name in named) else ", "
-    where = f"{f'{between.join(first)} and ' if first else ''}{last}"
-    if not goes_on:
-        return f"Not right at {where}; the rest is right."
-    if isinstance(kind, Policy):
-        return f"At {where} this does not go on from your earlier answer; the rest does."
-    return f"Not right at {where}; the rest is right, going on from your earlier answer."
+    return f"{f'{between.join(first)} and ' if first else ''}{last}"
 
 
 def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
@@ -385,6 +413,17 @@ def _is_close(cell: Cell, key: Value) -> bool:
 
 def _is_short(cell: Cell, key: Value) -> bool:
     return isinstance(cell, Reading) and is_short(cell.value, key)
+
+
+def _is_rounded(cell: Cell, key: Value) -> bool:
+    """Whether a number is the key, rounded to a decimal of one or two digits, or to a whole number of two."""
+    if not isinstance(cell, Reading) or not is_rational(cell.value) or parameters(key):
+        return False
+    decimal = _DECIMAL.fullmatch(cell.echo)
+    unit = fmpq(1, 10 ** len(decimal[1])) if decimal else last_digit(cell.value)
+    if unit is None or not cell.value or abs(cell.value) >= 100 * unit or (unit == 1 and abs(cell.value) < _TWO_DIGITS):
+        return False
+    return (cell.decimal or unit == 1) and within(cell.value, key, unit / 2)
 
 
 def _is_cut_off(cell: Cell, key: Value) -> bool:

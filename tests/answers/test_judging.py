@@ -380,6 +380,30 @@ def test_close_says_so_and_earns_nothing() -> None:
     assert verdict.credit == 0
 
 
+_FEW = "there are too few digits, give three or an exact value"
+
+
+@pytest.mark.parametrize(
+    ("typed", "says"),
+    [
+        ("-13, 3.3, 0.1", "Right idea; give an exact value or three digits."),
+        ("-13, 3.3, 0.2", f"Not right at c; at a and b {_FEW}."),
+        ("-12.54, 3.3, 0.2", f"Not right at c; at b {_FEW}; the rest is right."),
+        ("-12.54, 3.32, 0.1", "Not right at c; the rest is right."),  # no other entry is rounded so
+        ("-13, 3.4, 0.1", "Not right."),
+        ("-12, 3.3, 0.1", f"Not right at a; at b and c {_FEW}."),
+        ("-13, 3, 0.1", "Not right."),
+    ],
+)
+def test_entries_with_too_few_digits_are_parted_from_those_that_are_off(typed: str, says: str) -> None:
+    # With α = γ = 1 and V = 0 the values are the returns: 0.06, 3.26 + 0.06 and −15.86 + 3.32.
+    run = {"states": ["a", "b", "c", "end"], "rewards": ["-15.86", "3.26", "0.06"], "terminal": ["end"]}
+    solution = problem("monte-carlo", trajectory=run, values=dict.fromkeys("abc", 0), alpha=1, gamma=1, visits="every")
+    verdict = judge(solution, "b", typed)
+    assert verdict.says == says
+    assert not verdict.accepted
+
+
 @pytest.mark.parametrize("odd", ["800, 0", "2, 1e40", "-1e40, 1e40"])
 def test_an_odd_earlier_answer_breaks_nothing(odd: str) -> None:
     solution = problem("softmax-policy", theta=["1"], features={"left": ["1"], "right": ["2"]})
