@@ -37,6 +37,7 @@ _ROOTS = {"∛": 3, "∜": 4}
 _BRACKETS = {"(": ")", "{": "}", "[": "]"}
 _ENDS = ("number", "mixed", "repeating", "name", "raised", ")", "}", "]", "%", "°")  # of what may stand alone
 _LOOSE = {"(", "{", "[", "+", "-", "*", ",", ";", ")", "}", "]", "end"}  # what may stand beside a mixed number
+_BEFORE_TERMS = ("end", "+", "-", "(", "[", "{", ",", ";")
 _NUMBERS = ("number", "mixed", "repeating")
 _OF_ANGLES = ("sin", "cos", "tan")
 _BASES = ("2", "10")  # of log2(…) and log10(…)
@@ -115,6 +116,9 @@ def _grouped(pieces: list[str]) -> bool:
         and len(set(map(len, middle)) | {2, 3}) == 2
         and len(set(map(len, middle))) <= 1
     )
+
+
+_NOTHING = _Token("end", "", 0, 0, False)
 
 
 class _Parser:
@@ -202,7 +206,7 @@ class _Parser:
                 if divided and self._before.kind == "%" and not percent:
                     raise self._percent_of_quotient(sign)
             elif self._token.kind in ("name", "(", "{", "√", *_ROOTS, *_NUMBERS):
-                sign = self._token
+                sign, divided = self._token, divided and not self._is_behind_fraction()
                 self._check_implicit(divided)
                 right = self._power()
             else:
@@ -284,6 +288,15 @@ class _Parser:
         readings = f"{quoted(f'{base}^-{digits.text}')} or {quoted(f'{base} - {digits.text}')}"
         typed = quoted(self._text(first, digits))
         raise self._error(f"{typed} may be {readings}; write the one that is meant.", first)
+
+    def _is_behind_fraction(self) -> bool:
+        """Whether a name stands behind a fraction, with one blank between: ``53/8 γ``; LaTeX's commands leave more."""
+        *before, above, line, below = [_NOTHING] * 4 + self._tokens[: self._next]
+        fraction = (above.kind, line.kind, below.kind) == ("number", "/", "number") and below.text.isdigit()
+        tight = not (line.spaced or below.spaced)
+        blank = self._token.place == below.place + len(below.text) + 1
+        letter = self._token.kind == "name" and self._token.text.lower() not in FUNCTIONS
+        return fraction and tight and blank and letter and before[-1].kind in _BEFORE_TERMS
 
     def _check_alone(self) -> None:
         """A power of ten without its superscript, and nothing else: ``10-1``."""

@@ -1261,3 +1261,21 @@ def test_a_reason_may_speak_of_the_other_options() -> None:
     options = {"A": "small", "B": "large", "C": "none"}
     for typed in ("C, small and large do the same", "C, none", "none (they are too small)", "C (none)"):
         assert read_choice(typed, options) == "C"
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ("53/8 γ", "(53/8)*γ"), ("4 + 15/4 γ", "4 + (15/4)*γ"), ("-1/2 γ^2", "-(1/2)*γ^2"),
+        ("3 - 1/2 γ + 1", "4 - γ/2"), ("(1/2 gamma)", "γ/2"), ("1/8 γ/2", "γ/16"),
+    ],
+)  # fmt: skip
+def test_a_letter_a_blank_behind_a_fraction_is_its_factor(text: str, same: str) -> None:
+    assert read_number(text, ["gamma"]).value == read_number(same, ["gamma"]).value
+
+
+@pytest.mark.parametrize(
+    "text", ["1/2γ", "1 / 2 γ", "1/2\\gamma", "$1/2 \\gamma$", "γ/8 γ", "2*3/4 γ", "1/2/3 γ", "1/2 (1+γ)", "1.5/2.5 γ"]
+)
+def test_a_factor_below_or_beside_a_line_stays_ambiguous(text: str) -> None:
+    assert "two ways" in refusal(read_number, text, ["gamma"]).message
