@@ -118,6 +118,8 @@ def _rows_under_heads(body: Source, inner: dict[str, list[str]], outer: int) -> 
         entries = values.split(",") if _ROW.fullmatch(values.text) else []
         if not hits or len(entries) != len(inner[hits[0]]):
             return None
+        if any(_under(hits[0], entry, inner[hits[0]], outer) for entry in entries):
+            return None  # high: search 8, recharge 10
         halves = [(hits[0], name) if outer == 0 else (name, hits[0]) for name in inner[hits[0]]]
         found += [_Item(" ".join(key), entry, row) for key, entry in zip(halves, entries, strict=True)]
     return found
