@@ -76,7 +76,7 @@ def test_the_column_is_that_of_the_sign(kind: str, text: str) -> None:
         ("2^1001", 1),
         ("1 2", 2),
     ],
-)
+)  # fmt: skip
 def test_the_column_of_what_is_missing_or_too_much(text: str, column: int) -> None:
     with pytest.raises(Unreadable) as refused:
         read_number(text)
