@@ -4,6 +4,7 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from functools import lru_cache
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from msgspec import Struct
@@ -16,9 +17,10 @@ from rldrill.problems.mathematics import (
     listed,
     name,
     row,
+    signs,
     word,
 )
-from rldrill.problems.notations import AS_IT_STANDS, read_mathematics
+from rldrill.problems.notations import AS_IT_STANDS, in_notation, notations, read_mathematics, used
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
@@ -166,9 +168,20 @@ class NumbersAnswer(Answer[parts.Numbers]):
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        entries, called = [entry.removeprefix(AS_IT_STANDS) for entry in self.kind.entries], self.kind.called
-        read = read_vector(text, len(entries), allowed.parameters, entries, allowed.longest, called)
+        entries = [entry.removeprefix(AS_IT_STANDS) for entry in self.kind.entries]
+        try:
+            read = self._read(text, entries, allowed)
+        except Unreadable:
+            for names in _in_other_notations(self.kind.entries):
+                with suppress(Unreadable):
+                    read = self._read(text, names, allowed)
+                    break
+            else:
+                raise
         return {name: reading for name, reading in self.cells(read).items() if reading is not None}
+
+    def _read(self, text: str, names: Sequence[str], allowed: Allowed) -> tuple[Reading | None, ...]:
+        return read_vector(text, len(names), allowed.parameters, names, allowed.longest, self.kind.called)
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return tuple(cells.values())
@@ -190,6 +203,18 @@ class NumbersAnswer(Answer[parts.Numbers]):
 
     def how_to_type(self) -> str:
         return f"{len(self.kind.entries)} numbers in that order: 1, 3/4, 0.5 …"
+
+
+@lru_cache(maxsize=256)
+def _in_other_notations(entries: tuple[str, ...]) -> list[list[str]]:
+    """What other courses call these entries: G₀ for R₀."""
+    found: list[list[str]] = []
+    for notation in notations():
+        with used(notation):
+            names = ["".join(signs(in_notation(read_mathematics(entry)))) for entry in entries]
+        if names != ["".join(signs(read_mathematics(entry))) for entry in entries]:
+            found.append(names)
+    return found
 
 
 class MatrixAnswer(Answer[parts.Matrix]):

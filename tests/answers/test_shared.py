@@ -7,7 +7,7 @@ from flint import fmpq
 
 import rldrill
 from promptness import at_once
-from rldrill.problems.parts import Policy
+from rldrill.problems.parts import Numbers, Policy
 from rldrill.solutions.answers.kinds import Allowed, answer_kind
 from rldrill.solutions.answers.text import (
     Unreadable,
@@ -217,3 +217,15 @@ def test_entries_of_other_names_are_no_column(text: str) -> None:
 def test_pi_may_be_typed_in_the_name_of_an_option(text: str) -> None:
     options = {"A": "the Bellman equation for $V^π$", "B": "the Bellman equation for $V^*$", "C": "TD(0)"}
     assert read_choice(text, options) == "A"
+
+
+@pytest.mark.parametrize("text", ["G1 = 2, G0 = 3", "R_1 = 2, R_0 = 3", "G_0: 3; G_1: 2"])
+def test_entries_have_the_names_of_any_course(text: str) -> None:
+    read = answer_kind(Numbers(("R_0", "R_1"))).read(text, Allowed())
+    assert [cell.value for cell in read.values()] == [3, 2]  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("text", ["G2 = 2, G1 = 3", "H1 = 2, H0 = 3"])
+def test_other_names_are_none_of_them(text: str) -> None:
+    with pytest.raises(Unreadable):
+        answer_kind(Numbers(("R_0", "R_1"))).read(text, Allowed())
