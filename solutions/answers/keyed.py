@@ -447,9 +447,9 @@ def in_order(rows: Sequence[Sequence[Source]], source: Source, asked: Asked[Key]
     Raises:
         Unreadable: they can be placed in several ways.
     """
-    keys, ends = asked.keys, asked.ends
-    flat = [entry for row in rows for entry in row]
-    cells = _grid(keys, ends)
+    keys, flat = asked.keys, [entry for row in rows for entry in row]
+    cells = _grid(keys, asked.ends)
+    ends = [end for end in asked.ends if not cells or end in cells.values()]  # what is over is no cell
     if cells and len(rows) == len({place[0] for place in cells}) > 1:
         return _grid_placed(rows, source, cells, asked)
     if len(flat) == len(keys):
@@ -497,7 +497,7 @@ def _check_rows(rows: Sequence[Sequence[Source]], source: Source, keys: Sequence
 
 def _grid(keys: Sequence[Key], ends: Sequence[str]) -> dict[tuple[int, int], str] | None:
     """The cells of a grid that are states, by row and column."""
-    names = [*keys, *ends]
+    names = [*keys, *filter(_CELL.fullmatch, ends)]
     found = [_CELL.fullmatch(name) if isinstance(name, str) else None for name in names]
     if not keys or not all(found):
         return None

@@ -337,6 +337,7 @@ def read_table(
     """
     if len(keys) == 1 and (reading := plain(text)) is not None:
         return {keys[0]: reading}
+    text = _ANGLES.sub(r"(\1)", text)
     source = clean(keyed_list(text, (*keys, *ends)), longest)
     asked = Asked(keys, ends)
     shared = for_all(source, keys)
@@ -431,7 +432,24 @@ def _word_rows(source: Source, options: Mapping[str, Sequence[str]]) -> list[lis
     rows = [piece.unwrapped("[(") for piece in pieces]
     if len(pieces) != len(options) and len(pieces) > 1 and all(rows):  # [[up, up], [left, up]]
         return [_line_words(row, allowed) for row in rows if row]
-    return [_line_words(line, allowed) for line in filled(body.split("\n;" if body.has("\n") else "\n"))]
+    lines = filled(body.split("\n;" if body.has("\n") else "\n"))
+    if len(lines) == 1:
+        lines = _rows_of_grid(body, len(options)) or lines
+    return [_line_words(line, allowed) for line in lines]
+
+
+def _rows_of_grid(body: Source, count: int) -> list[Source]:
+    """The rows of a grid on one line: ``> > v; ^ # >``, ``>>v ^#>``; none, if these are no rows."""
+    drawn = [word for word in body.split(lambda _, sign: sign.isspace()) if word.text]
+    if 1 < len(drawn) != count and all(_DRAWN.fullmatch(word.text) and len(word.text) > 1 for word in drawn):
+        return drawn
+    for mark in ";|":
+        rows = filled(body.split(mark))
+        lengths = [len(row.text.split()) for row in rows]
+        whole = 1 < len(rows) != count and not body.has(",") and max(lengths) > 1
+        if whole and (sum(lengths) == count or len({*lengths}) == 1):
+            return rows
+    return []
 
 
 def _line_words(line: Source, allowed: Collection[Sequence[str]]) -> list[Source]:

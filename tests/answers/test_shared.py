@@ -229,3 +229,31 @@ def test_entries_have_the_names_of_any_course(text: str) -> None:
 def test_other_names_are_none_of_them(text: str) -> None:
     with pytest.raises(Unreadable):
         answer_kind(Numbers(("R_0", "R_1"))).read(text, Allowed())
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["right right exit\nup # up", "→ → e\n↑ # ↑", "> > exit; ^ # ^", "right right exit | up # up",
+     "right right exit; up up"],
+)  # fmt: skip
+def test_a_policy_of_a_grid_may_stand_on_one_line(text: str) -> None:
+    moves = ("up", "right", "down", "left")
+    cells = {"r1c1": moves, "r1c2": moves, "r1c3": ("exit",), "r2c1": moves, "r2c3": moves}
+    read = read_words(text, tuple(cells), cells, ["over"])
+    assert [action for (action,) in read.values()] == ["right", "right", "exit", "up", "up"]
+
+
+def test_rows_of_arrows_may_stand_on_one_line() -> None:
+    moves = dict.fromkeys(("r1c1", "r1c2", "r2c1"), ("up", "right", "down", "left"))
+    assert [*read_words(">> ^G", tuple(moves), moves, ["r2c2"]).values()] == [("right",), ("right",), ("up",)]
+
+
+@pytest.mark.parametrize("text", ["up left/right up", "up down; left", "up up up up; up"])
+def test_words_of_another_number_are_no_rows(text: str) -> None:
+    moves = dict.fromkeys(("r1c1", "r1c2", "r2c1", "r2c2"), ("up", "right", "down", "left"))
+    with pytest.raises(Unreadable):
+        read_words(text, tuple(moves), moves)
+
+
+def test_a_belief_may_stand_in_angles() -> None:
+    assert [reading.value for reading in read_table("<1/4, 3/4>", STATES).values()] == [fmpq(1, 4), fmpq(3, 4)]
