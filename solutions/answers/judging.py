@@ -13,6 +13,7 @@ from msgspec import Struct
 
 from rldrill.problems.document import joined
 from rldrill.problems.expressions import GREEK
+from rldrill.problems.notation import FUNCTIONS
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
 from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, is_short, last_digit, tolerance, within
@@ -34,6 +35,9 @@ _CLOSE = "Close, but not right: look for a slip, or for numbers that were rounde
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)(?:_?\{?([0-9]+))?[^=:≈\n]*+[=:≈]")
 #: A decimal, with its last zeros: 1.0.
 _DECIMAL = re.compile(r"-?[0-9]*\.([0-9]{1,4})")
+#: The names of states and actions in a question; the value of one, V(cool) = 3.
+_QUOTED = re.compile(r'"([^"$]+)"')
+_OF_NAME = re.compile(r"\s*([^\W\d_][^\s()=:≈]*)\s*\(([^\W\d_]{2,}[^()=:≈]*)\)\s*[=:≈]")
 #: A name that can be no number.
 _WORD = re.compile(r"[^\W\d_]{3,}(?: [^\W\d_]+)*")
 
@@ -153,11 +157,16 @@ def what_is_missing(solution: Solution, part: Part, cells: Mapping[str, Cell]) -
 
 
 def _refuse_other_quantity(text: str, ask: str) -> None:
-    """Refuse lines of a working of which an earlier one, not the last, names what is asked for.
+    """Refuse the value of another state; and lines of a working of which an earlier one names what is asked for.
 
     Raises:
         Unreadable: so it is.
     """
+    states = _QUOTED.findall(ask)
+    named = _OF_NAME.match(text.strip().rpartition("\n")[2])
+    is_name = named is not None and named[1].lower() not in FUNCTIONS
+    if named and is_name and states and not any(state.casefold() in named[2].casefold() for state in states):
+        raise Unreadable(f"{named[1]}({named[2]}) is not asked for here, but {named[1]}({states[0]}).")
     lines = unicodedata.normalize("NFKC", text).strip().split("\n")  # R₀ is R0
     *earlier, last = [_NAMED_LINE.match(line) for line in lines]
     asked = [line for line in earlier if line and _is_named(line, ask)]

@@ -678,3 +678,29 @@ def test_what_follows_before_a_part_that_has_no_answer_then_is_right() -> None:
     assert [part.verdict and part.verdict.outcome for part in graded.parts[:3]] == [
         Outcome.WRONG, Outcome.FOLLOW_THROUGH, Outcome.WRONG,
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("typed", "says"),
+    [
+        ("V(new) = 25", "V(new) is not asked for here, but V(worn)."),
+        ("V^π(new): 25", "V^π(new) is not asked for here, but V^π(worn)."),
+        ("V(new) = 3\nV(worn) = 25", ""),
+        ("V(worn) = 3\nV(new) = 25", "V(new) is not asked for here, but V(worn)."),
+        ("V_pi(Worn) = 25", ""),
+        ("V(s = worn) = 25", ""),
+        ("V(s) = 25", ""),
+        ("abs(gamma) = 25", ""),
+        ("25", ""),
+    ],
+)
+def test_the_value_of_another_state_is_not_taken_for_that_of_the_one(typed: str, says: str) -> None:
+    # V^π(worn) = 1/2·(8 + 4/5·30) + 1/2·(6 + 4/5·15) = 16 + 9
+    steps = [["worn", "run", "rattling", 1, 8], ["worn", "repair", "new", 1, 6]]
+    values, policy = {"new": 15, "rattling": 30}, {"worn": {"run": "1/2", "repair": "1/2"}}
+    solution = problem("bellman-backup", dynamics={"transitions": steps}, values=values, gamma="4/5", policy=policy)
+    verdict = judge(solution, "a", typed)
+    if says:
+        assert (verdict.outcome, verdict.says) == (Outcome.UNREADABLE, says)
+    else:
+        assert "asked for" not in verdict.says
