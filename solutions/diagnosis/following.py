@@ -232,7 +232,7 @@ class _Follower:
             if ones is not None and twos is not None and len(ones) != len(twos):
                 return Line(text, Standing.UNREAD)
             for one, two in zip(ones or (), twos or (), strict=False):
-                if not self._equal(one, two) and not _is_rounded(two, one.value):
+                if not self._equal(one, two) and not _is_rounded(two, one.value) and not self._kept_digits(one, two):
                     if self._holds_letter(one, two):
                         return self._untrue(text, one, two)
                     return self._miscalculated(text, label, (one, two), read_)
@@ -242,6 +242,12 @@ class _Follower:
         if not read_ or (None in sides and not self._named(label)):
             return Line(text, Standing.UNREAD)
         return self._placed(text, label, sides, told)
+
+    def _kept_digits(self, one: Reading, two: Reading) -> bool:
+        """Whether a decimal stands on the way, and what it is worked out from is rounded: 0.9*0.627 = 0.565."""
+        with suppress(*UNDONE):
+            return one.decimal and two.decimal and is_close(one.value, two.value) and self._place((two,)) is not None
+        return False
 
     def _read(self, text: str) -> tuple[str, list[str]]:
         """The name before the first sign, and the sides behind the last arrow that has one which is understood."""
@@ -469,6 +475,8 @@ class _Follower:
             return Line(text, self._standing)
         if any(_all_rounded(last, values) for values in asked):
             return Line(text, Standing.SHORT)
+        if self._are_shares(asked):
+            return Line(text, Standing.UNREAD)  # before it is divided by the sum, it may be anything
         if asked or measured or (parts and spelled(label).startswith(_ERROR)):
             wrong = not (told or self.lost or self.values)
             return Line(text, Standing.DEPARTS if wrong else Standing.UNREAD)
@@ -483,6 +491,12 @@ class _Follower:
             for number in self._order(len(last))
         )
         return Line(text, self._standing if known else Standing.UNREAD)
+
+    def _are_shares(self, asked: Sequence[Sequence[Any]]) -> bool:
+        """Whether what is asked for is one of several numbers that sum to 1."""
+        tables = [[*numbers_of(answer)] for answer in self.state.answers.values() if isinstance(answer, Mapping)]
+        whole = [table for table in tables if all(map(is_rational, table)) and sum(table) == 1]
+        return any(value in table for values in asked for value in values for table in whole)
 
     def _parts_called(self, label: str) -> Sequence[Sequence[Any]]:
         """What a part of a step is worth for which the sheet has a letter: δ, the TD error of an update."""
