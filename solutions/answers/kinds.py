@@ -172,7 +172,7 @@ class NumbersAnswer(Answer[parts.Numbers]):
         try:
             read = self._read(text, entries, allowed)
         except Unreadable:
-            for names in _in_other_notations(self.kind.entries):
+            for names in _in_other_notations(self.kind.entries) if _NAMED.search(text) else ():
                 with suppress(Unreadable):
                     read = self._read(text, names, allowed)
                     break
@@ -203,6 +203,10 @@ class NumbersAnswer(Answer[parts.Numbers]):
 
     def how_to_type(self) -> str:
         return f"{len(self.kind.entries)} numbers in that order: 1, 3/4, 0.5 …"
+
+
+#: A name before a number, with its index.
+_NAMED = re.compile(r"[^\W\d_][^=:\s]*\s*[=:]")
 
 
 @lru_cache(maxsize=256)

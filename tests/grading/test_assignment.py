@@ -87,6 +87,14 @@ def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, ma
     assert student(report, "Ben").parts[0].judged.read.startswith("δ₀: ")
 
 
+def test_of_an_exam_with_decimal_commas_the_comma_is_not_blamed(tmp_path: Path) -> None:
+    blueprint = Blueprint(problems=(Asked(id="td-zero/2/18"),), seed=1, decimal_mark=",")
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    report = graded(tmp_path, [("Ann", "", "1", "a", "-6; 3,2; minus three")], Assignment(tmp_path / "exam.json"))
+    judged = student(report, "Ann").parts[0].judged
+    assert (judged.verdict, "comma" in judged.reason, "'three'" in judged.reason) == ("unreadable", False, True)
+
+
 def test_a_part_that_shall_not_count_decides_nothing(tmp_path: Path) -> None:
     path, made = exam(tmp_path)
     data = json.loads(path.read_text())
