@@ -12,9 +12,10 @@ from rldrill.problems.spelling import VULGAR, Source, Unreadable, quoted
 
 DIGITS = 40  # longer numbers are slips of the keyboard, or mischief;
 WHOLE_DIGITS = 2000  # but whole ones may come from a program
+POWER_OF_TEN = 1000  # the probability of hundreds of tosses is as small
 _DEPTH = 40
 _OPERATIONS = 300
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
+RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
 _DOTS = r"\s?(?:…|⋯|\.{2,})"
 _BAR, _DOT = "\u0305\u0304", "\u0307"  # over the digits that repeat; over the first and last of them
 # Numbers as programs write them: np.sqrt(2), Fraction(1, 4), Sqrt[2]
@@ -36,6 +37,7 @@ _ROOTS = {"∛": 3, "∜": 4}
 _BRACKETS = {"(": ")", "{": "}", "[": "]"}
 _ENDS = ("number", "mixed", "repeating", "name", "raised", ")", "}", "]", "%", "°")  # of what may stand alone
 _LOOSE = {"(", "{", "[", "+", "-", "*", ",", ";", ")", "}", "]", "end"}  # what may stand beside a mixed number
+_BEFORE_TERMS = ("end", "+", "-", "(", "[", "{", ",", ";")
 _NUMBERS = ("number", "mixed", "repeating")
 _OF_ANGLES = ("sin", "cos", "tan")
 _BASES = ("2", "10")  # of log2(…) and log10(…)
@@ -114,6 +116,9 @@ def _grouped(pieces: list[str]) -> bool:
         and len(set(map(len, middle)) | {2, 3}) == 2
         and len(set(map(len, middle))) <= 1
     )
+
+
+_NOTHING = _Token("end", "", 0, 0, False)
 
 
 class _Parser:
@@ -201,7 +206,7 @@ class _Parser:
                 if divided and self._before.kind == "%" and not percent:
                     raise self._percent_of_quotient(sign)
             elif self._token.kind in ("name", "(", "{", "√", *_ROOTS, *_NUMBERS):
-                sign = self._token
+                sign, divided = self._token, divided and not self._is_behind_fraction()
                 self._check_implicit(divided)
                 right = self._power()
             else:
@@ -284,6 +289,15 @@ class _Parser:
         typed = quoted(self._text(first, digits))
         raise self._error(f"{typed} may be {readings}; write the one that is meant.", first)
 
+    def _is_behind_fraction(self) -> bool:
+        """Whether a name stands behind a fraction, with one blank between: ``53/8 γ``; LaTeX's commands leave more."""
+        *before, above, line, below = [_NOTHING] * 4 + self._tokens[: self._next]
+        fraction = (above.kind, line.kind, below.kind) == ("number", "/", "number") and below.text.isdigit()
+        tight = not (line.spaced or below.spaced)
+        blank = self._token.place == below.place + len(below.text) + 1
+        letter = self._token.kind == "name" and self._token.text.lower() not in FUNCTIONS
+        return fraction and tight and blank and letter and before[-1].kind in _BEFORE_TERMS
+
     def _check_alone(self) -> None:
         """A power of ten without its superscript, and nothing else: ``10-1``."""
         kinds = [token.kind for token in self._tokens]
@@ -325,7 +339,7 @@ class _Parser:
             if sign.kind == "%":
                 node = self._operation("%", sign, node)
                 continue
-            digits = re.fullmatch("([+-]?)([0-9]{1,3})", sign.text.translate(_RAISED))
+            digits = re.fullmatch("([+-]?)([0-9]{1,3})", sign.text.translate(RAISED))
             if not digits:
                 raise self._error(f"The exponent {quoted(sign.text)} is not understood; write it as ^2.", sign)
             exponent: Node = Numeral(fraction_of(digits[2]), digits[2], sign.at)
@@ -382,7 +396,12 @@ class _Parser:
         mantissa, _, exponent = digits.lower().partition("e")
         most = WHOLE_DIGITS if digits.isdigit() else DIGITS
         longest = max(len(part) for part in mantissa.replace(".", "").split("/"))
-        if longest > most or len(exponent) > most or abs(int(exponent or 0)) > DIGITS:
+        if exponent and (len(exponent) > DIGITS or abs(int(exponent)) > POWER_OF_TEN):
+            raise self._error(
+                f"The power of ten in {quoted(token.text)} is too large; {POWER_OF_TEN} is the largest that is read.",
+                token,
+            )
+        if longest > most:
             raise self._error(f"{quoted(token.text)} is too long for a number; {most} digits are the most.", token)
         try:
             return fraction_of(digits)
@@ -412,7 +431,7 @@ class _Parser:
         """The power that stands between a function of angles and what it is taken of: sin²(θ), sin^2 θ."""
         raised = self._ahead("raised")
         ahead = self._ahead("^", "number") or self._ahead("^", "{", "number", "}") or raised
-        digits = "".join(each.text for each in ahead).translate(_RAISED).strip("^{}")
+        digits = "".join(each.text for each in ahead).translate(RAISED).strip("^{}")
         if name not in _OF_ANGLES or not re.fullmatch("[2-9]", digits):
             return None
         if self._tokens[self._next + len(ahead)].kind not in ("name", *_BRACKETS):

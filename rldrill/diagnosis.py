@@ -1,6 +1,6 @@
 """Why an answer is wrong, in a sentence, and where in the working it went wrong."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from contextlib import suppress
 from functools import partial
 from threading import Event, RLock, Thread
@@ -30,7 +30,7 @@ from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import Typed, approximate, may_mean
-from rldrill.solutions.exact import is_rational
+from rldrill.solutions.exact import is_rational, parameters
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Step
@@ -254,16 +254,15 @@ class Diagnosing:
 
     def _wrong_answers(self, label: str, number: int) -> tuple["WrongAnswer", ...]:
         search, outcomes = self.search({}), self.outcomes(label, {})
-        kind = answer_kind(outcomes.part.kind)
+        kind, allowed = answer_kind(outcomes.part.kind), set(self.solution.problem.parameters)
         found: dict[str, WrongAnswer] = {}
         every = search.stated() if self._is_large() else search.whole(Clock())
         for candidate in sorted(every, key=lambda each: -each.cause.weight):
             if len(found) == number:
                 break
             with suppress(*UNDONE):
-                if outcomes.cells_of(candidate.answers) and self.solution.tells_apart(
-                    {label: candidate.answers[label]}
-                ):
+                cells = outcomes.cells_of(candidate.answers)
+                if _can_be_typed(cells, allowed) and self.solution.tells_apart({label: candidate.answers[label]}):
                     said = _diagnosis(candidate.cause, search.applications, 1.0)
                     text = kind.write(candidate.answers[label])
                     lines = self._lines(candidate.cause, said)
@@ -319,6 +318,12 @@ class Diagnosing:
                 applications = self.search(carried).applications
                 return self.solution.problem.written(partial(_told, found, applications))
         return Diagnosis("unexplained", verdict.says)
+
+
+def _can_be_typed(cells: Mapping[str, Any] | None, allowed: Set[str]) -> bool:
+    """Whether an answer has no letter in it but those that an answer may contain: not one that was to be found."""
+    values = [] if cells is None else [value for value in cells.values() if not isinstance(value, str | tuple)]
+    return bool(cells) and all(parameters(value) <= allowed for value in values)
 
 
 def _as_text(earlier: Mapping[str, Any]) -> str:
@@ -435,7 +440,7 @@ class FollowedLine(Struct, frozen=True):
     Args:
         text: what was written.
         standing: ``right``; ``follows`` from a line that departed; ``miscalculated`` where its own sides are not equal;
-            ``departs`` from the working; ``unread``.
+            ``departs`` from the working; ``short`` of digits; ``unread``.
         sentence: what is said of it; empty where all is well.
         step: the number of the step that it gives, among all steps of the working, from 0.
         kind: what it comes from, where it departs and that is known.
@@ -466,7 +471,12 @@ class Followed(Struct, frozen=True):
             return self.lines[self.first].sentence
         if all(line.standing == Standing.UNREAD.value for line in self.lines):
             return "No line of this could be read; write lines such as “V1 = 8 + 1/2*4 = 10”."
-        return "All of this is right as far as it goes."
+        short = next((line.sentence for line in self.lines if line.standing == Standing.SHORT.value), "")
+        unread = sum(line.standing == Standing.UNREAD.value for line in self.lines)
+        if unread:
+            were = "one line was" if unread == 1 else f"{unread} lines were"
+            return f"{short} {were.capitalize()} not judged." if short else f"The rest is right; {were} not judged."
+        return short or "All of this is right as far as it goes."
 
 
 def followed(search: Search, texts: Sequence[str]) -> Followed:
@@ -478,7 +488,9 @@ def _followed(line: Line, applications: Sequence[Application]) -> FollowedLine:
     step = None if line.application is None else line.application.nth
     where = "" if line.application is None else _sentence(place(line.application, applications))
     said, kind = "", ""
-    if line.standing is Standing.UNREAD:
+    if line.standing is Standing.SHORT:
+        said = f"Right, but with too few digits{where}: go on with an exact value, or with three digits."
+    elif line.standing is Standing.UNREAD:
         said = "This line was not understood, and is passed over."
     elif line.standing is Standing.MISCALCULATED:
         one, two = line.sides

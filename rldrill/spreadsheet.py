@@ -28,6 +28,8 @@ csv.field_size_limit(10**7)
 _SEPARATED = re.compile(r"\s*\"?sep=([^\r\n\"])\"?[,;\t]*\r?\n", re.IGNORECASE)
 #: What joins letters in Persian, Hindi and other scripts, and is not seen itself.
 JOINERS = "\u200c\u200d"
+#: Apostrophes and hyphens as word processors set them, and as they are typed.
+_TYPED = str.maketrans(dict.fromkeys("‘’ʼ′`´", "'") | dict.fromkeys("‐‑‒–—−", "-"))
 #: No name has more characters.
 _LONGEST = 200
 #: After so many rows with broken quotes the rest of a file is given up: its quotes mean nothing any more.
@@ -165,6 +167,9 @@ def name_of(text: str, what: str, place: str) -> str:
 
 
 def folded(name: str) -> str:
-    """A name as names are compared: without regard to case, normal form, spaces and joiners that are not seen."""
-    seen = "".join(sign for sign in name if sign not in JOINERS)
+    """A name as names are compared: without regard to case, normal form, spaces and joiners that are not seen.
+
+    Apostrophes and hyphens are those of a keyboard, whatever a word processor makes of them.
+    """
+    seen = "".join(sign for sign in name.translate(_TYPED) if sign not in JOINERS)
     return " ".join(unicodedata.normalize("NFC", unicodedata.normalize("NFKC", seen).casefold()).split())

@@ -1,14 +1,15 @@
 """Beliefs of workings: pictures before and after a step, and probabilities that are found."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from flint import fmpq
 
 from rldrill.problems.bars import belief_bars
+from rldrill.problems.beliefs import Outcome
 from rldrill.problems.exact import Parameter, Scalar
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.pictures import Bars
-from rldrill.solutions.exact import Value, is_rational
+from rldrill.solutions.exact import ONE, Value, exact, is_rational
 
 
 def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) -> tuple[Bars, ...]:
@@ -16,6 +17,12 @@ def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) ->
     if not all(is_rational(chance) and 0 <= chance <= 1 for chance in (*before.values(), *after.values())):
         return ()
     return (belief_bars(before=_fractions(before), after=_fractions(after)),)
+
+
+def stated(outcome: Outcome, states: Iterable[str]) -> dict[str, Value]:
+    """The belief that is known with the one probability of two."""
+    share = exact(outcome.probability)
+    return {name: share if name == outcome.state else ONE - share for name in states}
 
 
 def number(chance: Scalar, q: float) -> float:

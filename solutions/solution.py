@@ -232,10 +232,18 @@ class Solution(Struct, frozen=True, dict=True):
 
     def following(self, carried: Mapping[str, Any]) -> Mapping[str, Any]:
         """The answers of somebody who goes on correctly from own answers to earlier parts, as far as they lead."""
-        work = Work(carried=carried)
+        return self._followed(carried).answers
+
+    def ways(self, carried: Mapping[str, Any]) -> tuple[Mapping[str, Any], ...]:
+        """The same; also from what the question states, where that does not agree with an own answer."""
+        usual = self._followed(carried)
+        return (usual.answers, self._followed(carried, otherwise=True).answers) if usual.forks else (usual.answers,)
+
+    def _followed(self, carried: Mapping[str, Any], *, otherwise: bool = False) -> Work:
+        work = Work(carried=carried, otherwise=otherwise)
         with suppress(NoSolution):  # nothing more follows from what was typed
             solver(self.problem.family).solve(self.problem.given, work)
-        return work.answers
+        return work
 
 
 def _differ(right: Mapping[str, Any], wrong: Mapping[str, Any]) -> bool:

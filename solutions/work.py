@@ -3,7 +3,7 @@
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from flint import fmpq
 from msgspec import Struct
@@ -31,6 +31,8 @@ from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.rational import generator, linear, without_quotients
 from rldrill.solutions.roots import as_zeros, degree, only_root
 from rldrill.solutions.vector import Vector
+
+Known = TypeVar("Known")
 
 
 class _Applied(NamedTuple):
@@ -252,6 +254,7 @@ class Work:
             comes out here.
         right: for a slip, the answers of the right way, where they are known.
         sound: how many parts are answered before formulas are misread.
+        otherwise: where somebody who goes on from an own answer may go another way, whether that one is gone.
     """
 
     misconception: Misconception | None = None
@@ -259,6 +262,8 @@ class Work:
     same: Sequence[Any] = ()
     right: Sequence[Any] = ()
     sound: int = 0
+    otherwise: bool = False
+    forks: bool = False
     values: list[Any] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     answers: dict[str, Any] = field(default_factory=dict)
@@ -470,6 +475,14 @@ class Work:
         self.answers[label] = value
         self.ends[label] = len(self.lines)
         return self.carried.get(label, value)
+
+    def either(self, usual: Known, other: Callable[[], Known]) -> Known:
+        """What to go on with after a letter was found: what the question states, or what follows from the letter.
+
+        Both are the same on the right way, and as good for somebody who found another letter.
+        """
+        self.forks |= bool(self.carried)
+        return other() if self.otherwise else usual
 
 
 def _applied(formula: Formula, right: Expr, known: Mapping[str, Any]) -> Any:

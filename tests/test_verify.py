@@ -438,7 +438,7 @@ def test_quotes_are_asked_for_only_where_ids_stand_without(folder: Path) -> None
         ("a.json", '{"td.toml": null}'),
         ("a.csv", b"\xef\xbb\xbf"),
         ("a.csv", HEAD),
-        ("a.csv", HEAD + "Ann,td.toml,a,\n"),
+        ("a.csv", HEAD + ",td.toml,a,\n"),
         ("a.jsonl", "\n\n"),
     ],
 )

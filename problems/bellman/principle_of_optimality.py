@@ -85,6 +85,10 @@ class Given(Givens):
             raise ValueError(f"through: no path from {self.start!r} reaches {self.through!r}; name another state")
         return self
 
+    def terminal_states(self) -> tuple[str, ...]:
+        """The goal, where nothing more is earned."""
+        return (self.goal,)
+
     @cached_property
     def onward(self) -> dict[str, tuple[str, ...]]:
         """The next states of every state."""

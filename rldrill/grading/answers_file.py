@@ -123,7 +123,7 @@ def read_answers(path: str | Path) -> HandedIn:
 
     Raises:
         FileError: the file cannot be read, or is not a file of answers.
-        NothingToGrade: it holds no answers, or blank ones only.
+        NothingToGrade: it holds no answers, or blank ones only that are nobody's.
     """
     path = Path(path)
     text = read_text(path, SUFFIXES)
@@ -140,7 +140,7 @@ def read_answers(path: str | Path) -> HandedIn:
         rows = tuple(_json_lines(text, path))
     entries = tuple(row for row in rows if isinstance(row, Entry))
     refused = tuple(row for row in rows if isinstance(row, Refusal))
-    if not refused and not any(entry.text.strip() for entry in entries):
+    if not refused and not any(entry.text.strip() or entry.student for entry in entries):
         raise NothingToGrade(f"{shown(path)}: there are no answers in it; write some, or leave it out.")
     return HandedIn(path, entries, refused)
 

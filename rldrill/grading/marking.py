@@ -348,7 +348,7 @@ class Judging:
         return self._judged[key]
 
     def pointed(self, part: Part, text: str, *, commas: bool = False) -> str:
-        """What was typed for a part, with points for decimal commas where only so it can be read.
+        """What was typed for a part, with points for decimal commas unless it can be read without.
 
         The exam has to be written with them, or the file has to allow it: its columns are parted by semicolons, and
         no answer in it has a decimal point.
@@ -358,7 +358,7 @@ class Judging:
         pointed = _COMMA.sub(r"\1.\2", text)
         if pointed == text or self._readable(part, text):
             return text
-        return pointed if self._readable(part, pointed) else text
+        return pointed  # if it cannot be read so either, something else is to blame than the commas
 
     def _readable(self, part: Part, text: str) -> bool:
         try:

@@ -18,6 +18,7 @@ MISSING = "missing"
 NOT_GRADED = "not graded"
 #: What is said of somebody on the roster without any answers.
 NOTHING = "handed in nothing"
+EMPTY = "handed in, without an answer"
 #: The same of those whose file could not be read; and where it is not known whose file that was.
 UNREAD, PERHAPS = "handed in, could not be read", "nothing was read; perhaps one of the files that could not be read"
 ELSEWHERE = "nothing was found under this name; perhaps it is under one that is not on the roster"
@@ -185,7 +186,7 @@ class StudentReport(Struct, frozen=True):
             "version": self.version or None,
             "files": list(self.paths),
             "other_files": list(self.others),
-            "handed_in": bool(self.paths) or self.unread == UNREAD,
+            "handed_in": bool(self.paths) or self.unread in (UNREAD, EMPTY),
             "points": self.score.to_json(),
             "answers": [part.to_json(feedback) for part in self.parts],
             "not_marked": list(self.extra),

@@ -19,6 +19,7 @@ from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
 from rldrill.grading.report import (
     ELSEWHERE,
+    EMPTY,
     NOT_GRADED,
     PERHAPS,
     UNREAD,
@@ -194,6 +195,9 @@ class _Run:
     def _unread(self, sitting: Sitting) -> str:
         """What is known of somebody of whom nothing was read: whether they handed in something all the same."""
         names = _names(sitting.student, sitting.number)
+        if any(each.exit_code == NothingToGrade.exit_code and _names(each.student, each.number) & names
+               for each in self._refused):  # fmt: skip
+            return EMPTY
         unreadable = [each for each in self._refused if each.exit_code == FileError.exit_code]
         theirs = set().union(*(_names(each.student, each.number) for each in unreadable)) & names
         if any(self._shared[name] == 1 for name in theirs):

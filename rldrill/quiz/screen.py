@@ -63,6 +63,7 @@ _INCOMPLETE = "Incomplete, and not counted: "
 _STANDINGS = {
     "right": ("✓", "green"),
     "follows": ("✓", "green"),
+    "short": ("≈", "yellow"),
     "departs": ("✗", "red"),
     "miscalculated": ("✗", "red"),
     "unread": ("?", "yellow"),

@@ -34,7 +34,7 @@ _RATIONAL_BITS = 14_000  # of a quotient of the longest whole numbers
 _DEGREE = 24
 # degree, levels and bits of what a function is taken of, with a parameter in it and without
 _OPEN, _CLOSED = (4, 2, 100), (0, 4, 400)
-_EXPONENT = 64
+_EXPONENT, _RATIONAL_EXPONENT = 64, 1000
 _GROWTH = 100  # of the exponent of e
 _ROOT = 12  # the highest root
 _RADICAND = 40  # the digits of what it is taken of
@@ -90,8 +90,9 @@ class Arithmetic:
             return self._exp(self.multiply(self._lift(raised), exponent))
         if below > _ROOT:
             raise Unreadable(f"Exponents are whole numbers or fractions down to 1/{_ROOT}; use exp and ln for others.")
-        if abs(above) > _EXPONENT:
-            raise Unreadable(f"The exponent is too large; {_EXPONENT} is the largest that is read.")
+        largest = _RATIONAL_EXPONENT if is_rational(base) and below == 1 else _EXPONENT
+        if abs(above) > largest:
+            raise Unreadable(f"The exponent is too large; {largest} is the largest that is read.")
         return self._whole_power(base if below == 1 else self._root(base, below), above)
 
     def call(self, name: str, arguments: Sequence[Value]) -> Value:

@@ -2,36 +2,42 @@
 
 import re
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from enum import Enum
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.document import joined
 from rldrill.problems.expressions import GREEK
+from rldrill.problems.notation import FUNCTIONS
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
-from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
+from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, is_short, last_digit, tolerance, within
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import Reading, Unreadable
-from rldrill.solutions.exact import NotReal, Value, absolute, is_rational, sign
+from rldrill.solutions.exact import NotReal, Value, absolute, is_rational, parameters, sign
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
 
 #: An answer may be so many times as long as the right one is as it is typed: with decimals, names, and spaces.
 _ROOM = 4
-#: So many of the entries that were left out are named.
+#: So many of the entries that were left out, or have too few digits, are named.
 _NAMED = 3
+_TWO_DIGITS = 10
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 _SHORT = "Right idea; give an exact value or three digits."
 _CLOSE = "Close, but not right: look for a slip, or for numbers that were rounded on the way."
-#: The units of the last digit of short decimals, the largest first.
-_UNITS = tuple(fmpq(1, 10**places) for places in range(10))
 #: A line of a working that says what it works out: the head of the name and its index, R and 0 of R_0^(2) = 2.
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)(?:_?\{?([0-9]+))?[^=:≈\n]*+[=:≈]")
+#: A decimal, with its last zeros: 1.0.
+_DECIMAL = re.compile(r"-?[0-9]*\.([0-9]{1,4})")
+#: The names of states and actions in a question; the value of one, V(cool) = 3.
+_QUOTED = re.compile(r'"([^"$]+)"')
+_OF_NAME = re.compile(r"\s*([^\W\d_][^\s()=:≈]*)\s*\(([^\W\d_]{2,}[^()=:≈]*)\)\s*[=:≈]")
 #: A name that can be no number.
 _WORD = re.compile(r"[^\W\d_]{3,}(?: [^\W\d_]+)*")
 
@@ -104,7 +110,7 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
     if missing := what_is_missing(solution, part, cells):
-        return _partly(solution, part, cells, missing)
+        return _partly(solution, part, cells, missing, earlier or {})
     value = answer_kind(part.kind).value({name: _content(cell) for name, cell in cells.items()})
     return _judge(solution, part, cells, value, _read(cells), dict(earlier or {}))
 
@@ -151,11 +157,16 @@ def what_is_missing(solution: Solution, part: Part, cells: Mapping[str, Cell]) -
 
 
 def _refuse_other_quantity(text: str, ask: str) -> None:
-    """Refuse lines of a working of which an earlier one, not the last, names what is asked for.
+    """Refuse the value of another state; and lines of a working of which an earlier one names what is asked for.
 
     Raises:
         Unreadable: so it is.
     """
+    states = _QUOTED.findall(ask)
+    named = _OF_NAME.match(text.strip().rpartition("\n")[2])
+    is_name = named is not None and named[1].lower() not in FUNCTIONS
+    if named and is_name and states and not any(state.casefold() in named[2].casefold() for state in states):
+        raise Unreadable(f"{named[1]}({named[2]}) is not asked for here, but {named[1]}({states[0]}).")
     lines = unicodedata.normalize("NFKC", text).strip().split("\n")  # R₀ is R0
     *earlier, last = [_NAMED_LINE.match(line) for line in lines]
     asked = [line for line in earlier if line and _is_named(line, ask)]
@@ -183,47 +194,132 @@ def part_of(solution: Solution, label: str) -> Part:
     raise KeyError(label)
 
 
-def _partly(solution: Solution, part: Part, cells: dict[str, Cell], missing: str) -> Verdict:
-    """The judgement of an answer that leaves entries out: they are wrong ones."""
+class _Left(NamedTuple):
+    """The cells that are left wrong, with what would be right there; whether the rest goes on from own answers."""
+
+    right: Mapping[str, tuple[Any, ...]]
+    goes_on: bool = False
+
+    @property
+    def wrong(self) -> tuple[str, ...]:
+        """The names of the cells."""
+        return tuple(self.right)
+
+
+def _left(solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Mapping[str, Any]) -> _Left:
+    """What is wrong by the key, and by what follows from the person's own earlier answers.
+
+    Every number may be the one or the other. A policy is held against one of them as a whole, that which leaves fewer
+    wrong: of two actions each would be right, where the two differ.
+    """
     key = answer_kind(part.kind).cells(solution.answers[part.label])
     wrong = wrong_cells(cells, key)
-    says = _says_wrong([name if name in cells else f"{name} (left out)" for name in wrong], len(key))
-    earned = credit(part.kind, len(key), len(wrong))
-    return Verdict(Outcome.WRONG, says, earned, _read(cells), wrong_cells=wrong, missing=missing)
+    ways = list(_following(solution, part, cells, earlier)) if wrong and earlier else []
+    if isinstance(part.kind, Policy):
+        way = min([key, *ways], key=lambda each: len(wrong_cells(cells, each)))
+        return _Left({name: (way[name],) for name in wrong_cells(cells, way)}, way is not key)
+    left = set(wrong).intersection(*(wrong_cells(cells, way) for way in ways))
+    return _Left({name: (key[name], *(way[name] for way in ways)) for name in wrong if name in left}, left < set(wrong))
+
+
+def _following(
+    solution: Solution, part: Part, cells: Mapping[str, Cell], earlier: Mapping[str, Any]
+) -> Iterator[dict[str, Any]]:
+    """The cells of what follows from the person's own earlier answers, as far as it can be compared with."""
+    for answers in solution.ways(earlier):
+        with suppress(NotReal):  # an odd earlier answer leads to what is no real number: nobody can have typed it
+            if part.label in answers:
+                way = answer_kind(part.kind).cells(answers[part.label])
+                wrong_cells(cells, way)
+                yield way
+
+
+def _partly(
+    solution: Solution, part: Part, cells: dict[str, Cell], missing: str, earlier: Mapping[str, Any]
+) -> Verdict:
+    """The judgement of an answer that leaves entries out: they are wrong ones."""
+    key = answer_kind(part.kind).cells(solution.answers[part.label])
+    left = _left(solution, part, cells, earlier)
+    named = [name if name in cells else f"{name} (left out)" for name in left.wrong]
+    earned = credit(part.kind, len(key), len(left.wrong))
+    says = _says_wrong(part.kind, named, len(key), goes_on=left.goes_on)
+    return Verdict(Outcome.WRONG, says, earned, _read(cells), wrong_cells=left.wrong, missing=missing)
 
 
 def _judge(
     solution: Solution, part: Part, cells: dict[str, Cell], value: Any, read: str, earlier: dict[str, Any]
 ) -> Verdict:
-    label = part.label
-    key = answer_kind(part.kind).cells(solution.answers[label])
-    wrong = wrong_cells(cells, key)
-    if not wrong:
-        return Verdict(Outcome.RIGHT, "Right.", Fraction(1), read, value=value)
-    if earlier and matches(part, cells, solution.following(earlier)):
-        return Verdict(
-            Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer.", Fraction(1), read, value=value
-        )
+    left = _left(solution, part, cells, earlier)
+    if not left.right:
+        outcome, says = Outcome.RIGHT, "Right."
+        if left.goes_on:
+            outcome, says = Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer."
+        return Verdict(outcome, says, Fraction(1), read, value=value)
     made = _made(solution, part, cells, earlier)
-    earned = credit(part.kind, len(key), len(wrong))
-    named = tuple(name for name in wrong if name)
+    count = len(solution.cells[part.label])
+    earned = credit(part.kind, count, len(left.right))
+    named = tuple(name for name in left.right if name)
     if told := _told(part.kind, made):
         says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
         return Verdict(Outcome.MISCONCEPTION, says, earned, read, made, named, value, told)
-    if all(_is_close(cells[name], key[name]) for name in wrong):
-        cut = [_is_cut_off(cells[name], key[name]) for name in wrong]
-        short = all(done or _is_short(cells[name], key[name]) for name, done in zip(wrong, cut, strict=True))
-        says = _CUT_OFF if all(cut) else _SHORT if short else _CLOSE
-        return Verdict(Outcome.CLOSE, says, earned, read, (), named, value)
-    return Verdict(Outcome.WRONG, _says_wrong(named, len(key)), earned, read, made, named, value)
+    near = _close_to(cells, left.right)
+    short = _with_few_digits(cells, left.right, near)
+    if len({*near, *short}) == len(left.right):
+        return Verdict(Outcome.CLOSE, _says_close(cells, near, short), earned, read, (), named, value)
+    says = _says_wrong(part.kind, named, count, goes_on=left.goes_on, short=short)
+    return Verdict(Outcome.WRONG, says, earned, read, made, named, value)
 
 
-def _says_wrong(named: Sequence[str], cells: int) -> str:
-    if not 0 < len(named) < cells:
+def _close_to(cells: Mapping[str, Cell], right: Mapping[str, tuple[Any, ...]]) -> dict[str, Value]:
+    """What each wrong cell is close to, as far as it is close to something."""
+    return {
+        name: content
+        for name, contents in right.items()
+        for content in reversed(contents)
+        if _is_close(cells[name], content)
+    }
+
+
+def _with_few_digits(
+    cells: Mapping[str, Cell], right: Mapping[str, tuple[Any, ...]], near: Mapping[str, Value]
+) -> list[str]:
+    """The wrong cells that are rounded where their own digits end; beside one that surely is, also those of few."""
+    sure = [name for name, content in near.items() if _is_short(cells[name], content)]
+    if not sure:
+        return []
+    return [
+        name
+        for name, contents in right.items()
+        if name in sure or any(_is_rounded(cells[name], content) for content in contents)
+    ]
+
+
+def _says_close(cells: Mapping[str, Cell], near: Mapping[str, Value], short: Sequence[str]) -> str:
+    if all(_is_cut_off(cells[name], content) for name, content in near.items()) and not {*short} - {*near}:
+        return _CUT_OFF
+    done = {*short, *(name for name, content in near.items() if _is_cut_off(cells[name], content))}
+    return _SHORT if done >= near.keys() else _CLOSE
+
+
+def _says_wrong(kind: Kind, named: Sequence[str], cells: int, *, goes_on: bool, short: Sequence[str] = ()) -> str:
+    off = [name for name in named if name not in short]
+    if not short and not 0 < len(off) < cells:
         return "Not right."
+    if goes_on and isinstance(kind, Policy):
+        return f"At {_these(off)} this does not go on from your earlier answer; the rest does."
+    said = f"Not right at {_these(off)}"
+    if short:
+        where = f"at {_these(short)}" if len(short) <= _NAMED + 1 else f"at {len(short)} others"
+        said += f"; {where} there are too few digits, give three or an exact value"
+    if len(named) == cells:
+        return f"{said}."
+    return f"{said}; the rest is right{', going on from your earlier answer' if goes_on else ''}."
+
+
+def _these(named: Sequence[str]) -> str:
     *first, last = named
     between = "; " if any(", " in name for name in named) else ", "
-    return f"Not right at {f'{between.join(first)} and ' if first else ''}{last}; the rest is right."
+    return f"{f'{between.join(first)} and ' if first else ''}{last}"
 
 
 def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
@@ -325,13 +421,18 @@ def _is_close(cell: Cell, key: Value) -> bool:
 
 
 def _is_short(cell: Cell, key: Value) -> bool:
-    """Whether a number is the key, rounded or cut off where its own digits end, which are fewer than three."""
-    if not isinstance(cell, Reading) or not is_rational(cell.value):
+    return isinstance(cell, Reading) and is_short(cell.value, key)
+
+
+def _is_rounded(cell: Cell, key: Value) -> bool:
+    """Whether a number is the key, rounded to a decimal of one or two digits, or to a whole number of two."""
+    if not isinstance(cell, Reading) or not is_rational(cell.value) or parameters(key):
         return False
-    unit = next((unit for unit in _UNITS if (cell.value / unit).q == 1), None)
-    if unit is None or abs(cell.value) >= 100 * unit:
+    decimal = _DECIMAL.fullmatch(cell.echo)
+    unit = fmpq(1, 10 ** len(decimal[1])) if decimal else last_digit(cell.value)
+    if unit is None or not cell.value or abs(cell.value) >= 100 * unit or (unit == 1 and abs(cell.value) < _TWO_DIGITS):
         return False
-    return sign(unit - absolute(key - cell.value)) > 0
+    return (cell.decimal or unit == 1) and within(cell.value, key, unit / 2)
 
 
 def _is_cut_off(cell: Cell, key: Value) -> bool:

@@ -118,6 +118,8 @@ def _rows_under_heads(body: Source, inner: dict[str, list[str]], outer: int) -> 
         entries = values.split(",") if _ROW.fullmatch(values.text) else []
         if not hits or len(entries) != len(inner[hits[0]]):
             return None
+        if any(_under(hits[0], entry, inner[hits[0]], outer) for entry in entries):
+            return None  # high: search 8, recharge 10
         halves = [(hits[0], name) if outer == 0 else (name, hits[0]) for name in inner[hits[0]]]
         found += [_Item(" ".join(key), entry, row) for key, entry in zip(halves, entries, strict=True)]
     return found
@@ -375,9 +377,17 @@ def _words(source: Source) -> list[Source]:
 
 
 def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
-    """Keys with what they are given behind them: ``cool 3.5, warm 2.5``."""
+    """Keys with what they are given behind them: ``cool 3.5, warm 2.5``; at last perhaps ``others 2``.
+
+    Raises:
+        Unreadable: beside keys there is another name.
+    """
     found: dict[Key, Source] = {}
-    for piece in body.split(",;\n|"):
+    pieces = filled(body.split(",;\n|"))
+    for piece in pieces:
+        if found and piece is pieces[-1] and (rest := _REST.match(piece.text)) and piece.text[rest.end() :][:1] == " ":
+            others = piece.part(rest.end(), len(piece.text))
+            return {key: found.get(key, others) for key in asked.keys}
         words = _words(piece)
         if len(words) > 2 * asked.most:
             return None
@@ -386,6 +396,7 @@ def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
             more = (n for n in range(length + 1, len(words)) if _is_name(words[n : n + 1], 1, asked))
             stop = next(more, len(words))
             if not length or stop == length:
+                _refuse_other_names(pieces, asked)
                 return None
             key = _key(words[:length], asked)
             value = Source(" ".join(word.text for word in words[length:stop]), words[length].start)
@@ -400,6 +411,30 @@ def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
     return found
 
 
+def _refuse_other_names(pieces: Sequence[Source], asked: Asked[Key]) -> None:
+    """Refuse a name that is no key, where each piece is a name and what it is given, and some of them are keys.
+
+    Raises:
+        Unreadable: there is one.
+    """
+    names = [_name_before(piece, asked) for piece in pieces]
+    if all(names) and any(_known(name, asked) for name in names):
+        for name, piece in zip(names, pieces, strict=True):
+            the_key(name, asked.keys, asked.ends, piece)
+
+
+def _name_before(piece: Source, asked: Asked[Key]) -> str:
+    """What stands before a number or an action, if these are words."""
+    *words, value = _words(piece)
+    of_value = _NUMERIC.match(value.text) if asked.numbers else any(_goes_on(value.text, asked))
+    name = " ".join(word.text for word in words)
+    return name if of_value and re.fullmatch(r"[^\W\d_][^\W\d]+(?: [^\W\d]+)*", name) else ""
+
+
+def _goes_on(word: str, asked: Asked[Key]) -> Iterator[bool]:
+    return (asked.goes_on is not None and asked.goes_on(word, key) for key in asked.keys)
+
+
 def _is_name(words: Sequence[Source], length: int, asked: Asked[Key]) -> bool:
     """Whether words are a known name; a number alone is none."""
     name = " ".join(word.text for word in words)
@@ -412,9 +447,9 @@ def in_order(rows: Sequence[Sequence[Source]], source: Source, asked: Asked[Key]
     Raises:
         Unreadable: they can be placed in several ways.
     """
-    keys, ends = asked.keys, asked.ends
-    flat = [entry for row in rows for entry in row]
-    cells = _grid(keys, ends)
+    keys, flat = asked.keys, [entry for row in rows for entry in row]
+    cells = _grid(keys, asked.ends)
+    ends = [end for end in asked.ends if not cells or end in cells.values()]  # what is over is no cell
     if cells and len(rows) == len({place[0] for place in cells}) > 1:
         return _grid_placed(rows, source, cells, asked)
     if len(flat) == len(keys):
@@ -462,7 +497,7 @@ def _check_rows(rows: Sequence[Sequence[Source]], source: Source, keys: Sequence
 
 def _grid(keys: Sequence[Key], ends: Sequence[str]) -> dict[tuple[int, int], str] | None:
     """The cells of a grid that are states, by row and column."""
-    names = [*keys, *ends]
+    names = [*keys, *filter(_CELL.fullmatch, ends)]
     found = [_CELL.fullmatch(name) if isinstance(name, str) else None for name in names]
     if not keys or not all(found):
         return None

@@ -4,6 +4,7 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from functools import lru_cache
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from msgspec import Struct
@@ -19,7 +20,7 @@ from rldrill.problems.mathematics import (
     signs,
     word,
 )
-from rldrill.problems.notations import AS_IT_STANDS, LECTURE, in_notation, in_use, read_mathematics
+from rldrill.problems.notations import AS_IT_STANDS, LECTURE, in_notation, in_use, notations, read_mathematics, used
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
@@ -167,23 +168,22 @@ class NumbersAnswer(Answer[parts.Numbers]):
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        lecture = tuple(entry.removeprefix(AS_IT_STANDS) for entry in self.kind.entries)
-        try:
-            read = self._vector(text, self._names or lecture, allowed)
-        except Unreadable:
-            if not self._names:
-                raise
-            read = self._vector(text, lecture, allowed)
-        return {name: reading for name, reading in self.cells(read).items() if reading is not None}
+        refused: Unreadable | None = None
+        for names in _names(self.kind.entries, in_use().notation) if _NAMED.search(text) else (self._entries,):
+            try:
+                read = self._read(text, names, allowed)
+            except Unreadable as error:
+                refused = refused or error
+            else:
+                return {name: reading for name, reading in self.cells(read).items() if reading is not None}
+        assert refused is not None
+        raise refused
 
     @property
-    def _names(self) -> tuple[str, ...]:
-        """What the entries are in the notation in use; nothing in the lecture's."""
-        if in_use().notation == LECTURE:
-            return ()
-        return tuple("".join(signs(in_notation(read_mathematics(entry)))) for entry in self.kind.entries)
+    def _entries(self) -> tuple[str, ...]:
+        return tuple(entry.removeprefix(AS_IT_STANDS) for entry in self.kind.entries)
 
-    def _vector(self, text: str, names: Sequence[str], allowed: Allowed) -> tuple[Reading | None, ...]:
+    def _read(self, text: str, names: Sequence[str], allowed: Allowed) -> tuple[Reading | None, ...]:
         return read_vector(text, len(names), allowed.parameters, names, allowed.longest, self.kind.called)
 
     def value(self, cells: Mapping[str, Any]) -> Any:
@@ -206,6 +206,26 @@ class NumbersAnswer(Answer[parts.Numbers]):
 
     def how_to_type(self) -> str:
         return f"{len(self.kind.entries)} numbers in that order: 1, 3/4, 0.5 …"
+
+
+#: A name before a number, with its index.
+_NAMED = re.compile(r"[^\W\d_][^=:\s]*\s*[=:]")
+
+
+@lru_cache(maxsize=256)
+def _names(entries: tuple[str, ...], notation: str) -> tuple[tuple[str, ...], ...]:
+    """What entries are called: in the notation in use, in the lecture's, and as other courses call them, G₀ for R₀."""
+    lecture = tuple(entry.removeprefix(AS_IT_STANDS) for entry in entries)
+    plain = _spelled(entries, LECTURE)
+    others = {name: _spelled(entries, name) for name in notations()}
+    found = [names for names in others.values() if names != plain]
+    first = [others[notation]] if others.get(notation, plain) != plain else []
+    return tuple(dict.fromkeys((*first, lecture, *found)))
+
+
+def _spelled(entries: tuple[str, ...], notation: str) -> tuple[str, ...]:
+    with used(notation):
+        return tuple("".join(signs(in_notation(read_mathematics(entry)))) for entry in entries)
 
 
 class MatrixAnswer(Answer[parts.Matrix]):

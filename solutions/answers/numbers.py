@@ -8,7 +8,7 @@ from flint import fmpq
 from msgspec import Struct
 
 from rldrill.problems.exact import PARAMETERS
-from rldrill.problems.grammar import read
+from rldrill.problems.grammar import RAISED, read
 from rldrill.problems.notation import (
     ATOM,
     FUNCTIONS,
@@ -40,7 +40,13 @@ _QUOTED = re.compile(r"""\((['"])([^'"()]*)\1\)""")  # Decimal('0.25')
 _TIMES = re.compile(rf"(?<![0-9A-Za-z_])((?!0[xX])[0-9.]*[0-9.]|(?<=[0-9])[%{VULGAR}])\s*[xXхХ]\s*([0-9.√{VULGAR}])")
 _EQUAL = re.compile(r"==|≈|(?<=[^=~≈])~|≡|,?\s(?:or|i\.\s?e\.,?)\s")
 _AGAIN = re.compile(r"(?:i\.\s?e\.,?|or\b|[=≈~]|approx(?:imately)?\b\.?|about\b|ca\b\.?)*\s*", re.IGNORECASE)
-_DECIMAL = re.compile(r"[-+]?\s*(?:[0-9]+(?:\.([0-9]*))?|\.([0-9]+))(?:e([-+]?[0-9]+))?\s*(%)?", re.IGNORECASE)
+#: A decimal with the digits behind its point, and its power of ten: 8.1e-9, 8.1*10^(-9), 8.1*10⁻⁹.
+_DECIMAL = re.compile(
+    r"[-+]?\s*(?:[0-9]+(?:\.(?P<behind>[0-9]*))?|\.(?P<alone>[0-9]+))"
+    r"(?:e(?P<e>[-+]?[0-9]+)|\s*\*\s*10\s*(?:\^\s*[({]?\s*(?P<caret>[-+]?\s*[0-9]+)\s*[)}]?|(?P<raised>[⁺⁻]?[⁰¹²³⁴-⁹]+)))?"
+    r"\s*(?P<percent>%)?",
+    re.IGNORECASE,
+)
 _PLAIN = re.compile(r"(-?[0-9]{1,15})(?:\.([0-9]{1,15})|/([1-9][0-9]{0,14}))?")
 _MOST_FORMS = 8
 #: What may be said behind a number of how exact it is, and that its last digits repeat.
@@ -257,7 +263,8 @@ def _agree(first: _Form, second: _Form) -> bool:
     decimal = _DECIMAL.fullmatch(second.source.text)
     if decimal is None:
         return equivalent(other, exact)
-    places = len(decimal[1] or "") - int(decimal[2] or 0) + 2 * bool(decimal[3])
+    power = "".join((decimal["e"] or decimal["caret"] or decimal["raised"] or "0").translate(RAISED).split())
+    places = len(decimal["behind"] or decimal["alone"] or "") - int(power) + 2 * bool(decimal["percent"])
     return within(other, exact, fmpq(10) ** -places / 2)
 
 

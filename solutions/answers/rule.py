@@ -21,6 +21,7 @@ from rldrill.solutions.exact import (
     is_zero,
     magnitude,
     parameters,
+    sign,
     simplest,
     to_sympy,
     value_where,
@@ -111,6 +112,24 @@ def is_close(value: Value, key: Value) -> bool:
     if parameters(key) or parameters(value) or is_zero(key):
         return False
     return within(value, key, absolute(key) * _CLOSE)
+
+
+def last_digit(number: fmpq) -> fmpq | None:
+    """The unit of the last digit of a decimal or whole number, a tenth of 1.5; None where no decimal ends so."""
+    below, places = int(number.q), []
+    for prime in (2, 5):
+        times = 0
+        while below % prime == 0:
+            below, times = below // prime, times + 1
+        places.append(times)
+    return fmpq(1, 10 ** max(places)) if below == 1 else None
+
+
+def is_short(value: Value, key: Value) -> bool:
+    """Whether a value is the key, rounded or cut off where its own digits end, which are fewer than three."""
+    if not is_rational(value) or (unit := last_digit(value)) is None or abs(value) >= 100 * unit:
+        return False
+    return sign(unit - absolute(key - value)) > 0
 
 
 def apart(key: Value, other: Value) -> bool:

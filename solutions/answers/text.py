@@ -105,6 +105,8 @@ _SIGNED_ENTRY = re.compile(r"[\w)]\s+[-+](?=[\w(√])")
 _SIGNED_LINE = re.compile(r"[\w.)\]}%]\s*\n\s*(?=[-+])")
 #: The name of an entry of a matrix, with its row and column: J12 =, J_{1,2} =, A[1, 2]:
 _INDEXED = re.compile(r"[^\W\d_]\w*?_?[{(\[]?([1-9]),?\s*([1-9])[})\]]?\s*[=:]\s*(?=\S)")
+#: An entry of a single row or column by its name with one index, C_2.
+_NUMBERED = re.compile(r"([^\W\d_]+)_?[{(\[]?([1-9])[})\]]?\s*[=:]\s*(?=\S)")
 #: A comma that may be a decimal comma.
 _TIGHT = re.compile(r",(?!\s)")
 _ENTRIES = 200
@@ -249,8 +251,18 @@ def read_matrix(
 
 
 def _by_indices(source: Source, rows: int, columns: int) -> list[list[Source]] | None:
-    """The entries of a matrix that are typed one by one, each with its row and column; None if not all are."""
+    """The entries of a matrix that are typed one by one, each with its row and column; None if not all are.
+
+    Those of a single row or column have one index, and the same letter.
+    """
     pieces = [piece for piece in source.split(",;\n") if piece.text]
+    once = [_NUMBERED.match(piece.text) for piece in pieces]
+    if 1 in (rows, columns) and all(once) and len({name[1] for name in once if name}) == 1:
+        numbered = {int(name[2]): piece.part(name.end(), len(piece.text))
+                    for name, piece in zip(once, pieces, strict=True) if name}  # fmt: skip
+        if len(pieces) == rows * columns > 1 and [*sorted(numbered)] == [*range(1, rows * columns + 1)]:
+            line = [numbered[index] for index in sorted(numbered)]
+            return [line] if rows == 1 else [[entry] for entry in line]
     named = [_INDEXED.match(piece.text) for piece in pieces]
     found = {
         (int(name[1]), int(name[2])): piece.part(name.end(), len(piece.text))
@@ -325,6 +337,7 @@ def read_table(
     """
     if len(keys) == 1 and (reading := plain(text)) is not None:
         return {keys[0]: reading}
+    text = _ANGLES.sub(r"(\1)", text)
     source = clean(keyed_list(text, (*keys, *ends)), longest)
     asked = Asked(keys, ends)
     shared = for_all(source, keys)
@@ -356,7 +369,9 @@ def _number_rows(source: Source, count: int) -> list[list[Source]]:
     body, wrapped = unwrapped(source)
     whole = [ended(row) for row in filled(body.split(";\n"))]
     rows = [filled(row.split(",")) for row in whole]
-    if body.has(";") and not any(map(_TIGHT.search, (row.text for row in whole))) and sum(map(len, rows)) == count:
+    tight = any(_TIGHT.search(row.text) for row in whole)
+    square = len(whole) > 1 and len({*map(len, rows)}) == 1 and len(whole) != count  # 8,10;8,4 for four values
+    if body.has(";") and (square or not tight) and sum(map(len, rows)) == count:
         return rows  # -2, 3; 4, 6
     lines = filled(body.split("\n;" if body.has("\n") or not body.has(",") else "\n"))
     return [entries_of(line, (count > 1 or wrapped) and len(lines) != count) for line in lines]
@@ -417,7 +432,24 @@ def _word_rows(source: Source, options: Mapping[str, Sequence[str]]) -> list[lis
     rows = [piece.unwrapped("[(") for piece in pieces]
     if len(pieces) != len(options) and len(pieces) > 1 and all(rows):  # [[up, up], [left, up]]
         return [_line_words(row, allowed) for row in rows if row]
-    return [_line_words(line, allowed) for line in filled(body.split("\n;" if body.has("\n") else "\n"))]
+    lines = filled(body.split("\n;" if body.has("\n") else "\n"))
+    if len(lines) == 1:
+        lines = _rows_of_grid(body, len(options)) or lines
+    return [_line_words(line, allowed) for line in lines]
+
+
+def _rows_of_grid(body: Source, count: int) -> list[Source]:
+    """The rows of a grid on one line: ``> > v; ^ # >``, ``>>v ^#>``; none, if these are no rows."""
+    drawn = [word for word in body.split(lambda _, sign: sign.isspace()) if word.text]
+    if 1 < len(drawn) != count and all(_DRAWN.fullmatch(word.text) and len(word.text) > 1 for word in drawn):
+        return drawn
+    for mark in ";|":
+        rows = filled(body.split(mark))
+        lengths = [len(row.text.split()) for row in rows]
+        whole = 1 < len(rows) != count and not body.has(",") and max(lengths) > 1
+        if whole and (sum(lengths) == count or len({*lengths}) == 1):
+            return rows
+    return []
 
 
 def _line_words(line: Source, allowed: Collection[Sequence[str]]) -> list[Source]:
@@ -495,8 +527,8 @@ def names_alone(text: str) -> tuple[str, str]:
 
 
 def _flattened(text: str) -> str:
-    """A text without the signs that only set its mathematics: ``Q*`` for ``$Q^*$``."""
-    return re.sub(r"[$^{}]", "", text)
+    """A text without the signs that only set its mathematics: ``Q*`` for ``$Q^*$``, and ``Vπ`` for ``V^pi``."""
+    return re.sub(r"(?<=\b[VQvq])_?pi\b", "π", re.sub(r"[$^{}]", "", text))
 
 
 def _names_another(reason: str, chosen: Sequence[str], spellings: Sequence[tuple[str, str]]) -> bool:

@@ -1,14 +1,15 @@
 """Prediction and Bayes' rule in turn: the action first, then the measurement after it."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, TypeAlias
 
 from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import ONE, equals, exact, told
+from rldrill.solutions.beliefs import before_and_after, number, root, stated
+from rldrill.solutions.exact import equals, exact, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -56,8 +57,10 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], onward: Onward = 
         value = work.answer(work.equate(given.left_open[0], belief[state], share, share=True))
         if len(states) == 2:
             (other,) = (name for name in states if name != state)
-            settled = {name: share if name == state else ONE - share for name in states}
-            work.say(f"After the first step $p({state}) {equals(share)}$, so that $p({other}) {equals(ONE - share)}$.")
+            settled = stated(given.outcome, states)
+            work.say(
+                f"After the first step $p({state}) {equals(share)}$, so that $p({other}) {equals(settled[other])}$."
+            )
         else:
             work.say(f"With this ${shown(Parameter(given.left_open[0]))}$ the first step is:")
         start = knowns.settled(start, value)
@@ -68,7 +71,9 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], onward: Onward = 
         if step > 1:
             work.say("In the next step $p$ is the belief that was found.")
         now = known | ({"label": f'"step" {step}'} if len(given.run) > 1 else {})
-        after = settled if not asked and settled else _moves(event, work, moves, belief, now)
+        moved = partial(_moves, event, work, moves, belief, now)
+        after = settled if not asked else {}
+        after = work.either(after, moved) if after else moved()
         if asked:
             work.picture(before_and_after, belief, after)
             after = work.answer(after)

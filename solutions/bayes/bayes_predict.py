@@ -1,12 +1,13 @@
 """The prediction once for every action; each belief is the one that the next action starts from."""
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from rldrill.problems.bayes.bayes_predict import Given
 from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after, number, root
+from rldrill.solutions.beliefs import before_and_after, number, root, stated
 from rldrill.solutions.exact import equals, exact
 from rldrill.solutions.found import put_in_found
 from rldrill.solutions.oracle import OPEN, Answers, at
@@ -46,6 +47,8 @@ def solve(given: Given, work: Work) -> None:
         if len(actions) > given.after:
             work.say(f"With this ${q}$ the {'first' if given.after == 1 else 'next'} action gives:")
             belief = _moved(work, last, belief, motion, label)
+            if len(states) == 2:
+                belief = work.either(belief, partial(stated, given.outcome, states))
             work.say(f"The next action, {actions[given.after]}, gives:")
     first = 0 if given.outcome is None else given.after
     for place, action in enumerate(actions[first:]):

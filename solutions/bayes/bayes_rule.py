@@ -5,8 +5,8 @@ from typing import Any
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import ONE, Value, equals, exact
+from rldrill.solutions.beliefs import before_and_after, number, root, stated
+from rldrill.solutions.exact import Value, equals, exact
 from rldrill.solutions.formula.nodes.sets import LONG
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import OPEN, Answers, at
@@ -61,13 +61,13 @@ def _first(given: Given, work: Work, letter: str, known: dict[str, Any]) -> dict
     if len(hypotheses) != 2 or outcome is None or outcome.state not in hypotheses:
         work.say(f"With this ${shown(Parameter(letter))}$ the first measurement gives:")
         return _posterior(work, known)
-    share = exact(outcome.probability)
-    belief = {name: share if name == outcome.state else ONE - share for name in hypotheses}
+    belief = stated(outcome, hypotheses)
     (other,) = (name for name in hypotheses if name != outcome.state)
     work.say(
-        f'After the first measurement $p("{outcome.state}") {equals(share)}$, so $p("{other}") {equals(ONE - share)}$.'
+        f'After the first measurement $p("{outcome.state}") {equals(belief[outcome.state])}$, '
+        f'so $p("{other}") {equals(belief[other])}$.'
     )
-    return belief
+    return work.either(belief, lambda: _posterior(work, known))
 
 
 def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:

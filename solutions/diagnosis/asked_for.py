@@ -2,10 +2,11 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from typing import Any
 
 from rldrill.problems.exact import PARAMETERS
-from rldrill.problems.parts import Number, Numbers, Part, Values
+from rldrill.problems.parts import Matrix, Number, Numbers, Part, Values
 from rldrill.solutions.diagnosis.alternatives import numbers, plain
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.written_names import letters
@@ -15,13 +16,21 @@ _LETTER = re.compile(r"(?:\w+ )?[Ww]h(?:ich|at)(?: is| must)?(?: [\w ]+?)? \$([^
 #: The name of what a part asks for: What is the entry $B_{2 1}$ …?
 _QUANTITY = re.compile(r"What is (?:the [\w ]+ )?\$([^$]+)\$(?!-)")
 
+#: The letter of a matrix that a part asks for: What is $J$ at this configuration?
+_MATRIX = re.compile(r"What is (?:the [\w ]+ )?\$([^\W\d_])\$")
+
 
 def called(part: Part) -> Sequence[str]:
     """The names of what a part asks for, in mathematics."""
     if isinstance(part.kind, Numbers):
         return part.kind.entries
     if isinstance(part.kind, Values):
-        return [part.kind.of.split("(")[0]]
+        of = part.kind.of.split("(")[0]
+        return [f"{of}({key if isinstance(key, str) else ','.join(key)})" for key in part.kind.keys]
+    if isinstance(part.kind, Matrix) and (found := _MATRIX.match(part.ask)):
+        places = product(range(1, part.kind.rows + 1), range(1, part.kind.columns + 1))
+        line = 1 in (part.kind.rows, part.kind.columns)
+        return [f"{found[1]}{max(place) if line else f'{place[0]}{place[1]}'}" for place in places]
     if isinstance(part.kind, Number) and (found := _QUANTITY.match(part.ask)):
         return [found[1]]
     return []

@@ -10,9 +10,10 @@ from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
+from sympy import preorder_traversal
 
 from rldrill.problems.notation import FUNCTIONS
-from rldrill.solutions.answers.rule import is_right
+from rldrill.solutions.answers.rule import is_close, is_right, is_short
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
 from rldrill.solutions.diagnosis.alternatives import LIKELY, at_one, numbers, of_numbers, plain, value_or_none
 from rldrill.solutions.diagnosis.asked_for import asked_letters, called, numbers_of
@@ -67,6 +68,8 @@ _LAST_NAME = re.compile(rf"{_NAME.pattern}\Z")
 _TIMES = re.compile(r"(?<=[\d)])\s*\(")
 #: The letter of an error stands for nothing else.
 _ERROR = "δ"
+#: The probability of a measurement, at some time.
+_OF_MEASUREMENT = re.compile(r"p\(([^()|,]+?)\d*\)")
 #: A comparison is no equation.
 _RELATION = re.compile(r"[<>≤≥≠]")
 #: A side with names that may be worth more than this is not read.
@@ -100,6 +103,7 @@ class Standing(Enum):
 
     RIGHT = "right"
     FOLLOWS = "follows"  # from a line that departed
+    SHORT = "short"  # rounded to too few digits
     MISCALCULATED = "miscalculated"  # its own sides are not equal
     DEPARTS = "departs"
     UNREAD = "unread"
@@ -228,7 +232,7 @@ class _Follower:
             if ones is not None and twos is not None and len(ones) != len(twos):
                 return Line(text, Standing.UNREAD)
             for one, two in zip(ones or (), twos or (), strict=False):
-                if not self._equal(one, two):
+                if not self._equal(one, two) and not _is_rounded(two, one.value) and not self._kept_digits(one, two):
                     if self._holds_letter(one, two):
                         return self._untrue(text, one, two)
                     return self._miscalculated(text, label, (one, two), read_)
@@ -238,6 +242,12 @@ class _Follower:
         if not read_ or (None in sides and not self._named(label)):
             return Line(text, Standing.UNREAD)
         return self._placed(text, label, sides, told)
+
+    def _kept_digits(self, one: Reading, two: Reading) -> bool:
+        """Whether a decimal stands on the way, and what it is worked out from is rounded: 0.9*0.627 = 0.565."""
+        with suppress(*UNDONE):
+            return one.decimal and two.decimal and is_close(one.value, two.value) and self._place((two,)) is not None
+        return False
 
     def _read(self, text: str) -> tuple[str, list[str]]:
         """The name before the first sign, and the sides behind the last arrow that has one which is understood."""
@@ -390,6 +400,9 @@ class _Follower:
         step = next((number for number in steps if self._gives(number, last)), None)
         if step is not None:
             return self._step(text, step, last)
+        rounded = next((number for number in steps if _all_rounded(last, self.expected[number])), None)
+        if rounded is not None and not told:
+            return self._rounded_step(text, rounded, last)
         if named:
             if self._is_beside(label, last):
                 return Line(text, self._standing)
@@ -415,6 +428,12 @@ class _Follower:
         if not self._all_same(last, self.expected[number]):
             self._go_on(number, last)
         return Line(text, self._standing, self.search.applications[number])
+
+    def _rounded_step(self, text: str, number: int, last: Entries) -> Line:
+        """A step's value with too few digits: what comes next may go on from it, or from the value itself."""
+        self.before = self.before or self.state
+        self._go_on(number, last)
+        return Line(text, Standing.SHORT, self.search.applications[number])
 
     def _gives(self, number: int, last: Entries) -> bool:
         """Whether a step gives it; or with what was found so far an equation of a system, or 1 minus the others."""
@@ -451,9 +470,14 @@ class _Follower:
     def _of_own_name(self, text: str, label: str, last: Entries, worked: Numbers | None, told: bool) -> Line:
         """A line with a name that no step has: what is asked for, or else it is right where it is worked out so."""
         asked, parts = self._answer(label, len(last)), self._parts_called(label)
-        if any(self._all_same(last, values) for values in (*asked, *parts)):
+        measured = list(self._evidence(label))
+        if any(self._all_same(last, values) for values in (*asked, *parts, *measured)):
             return Line(text, self._standing)
-        if asked or (parts and spelled(label).startswith(_ERROR)):
+        if any(_all_rounded(last, values) for values in asked):
+            return Line(text, Standing.SHORT)
+        if self._are_shares(asked):
+            return Line(text, Standing.UNREAD)  # before it is divided by the sum, it may be anything
+        if asked or measured or (parts and spelled(label).startswith(_ERROR)):
             wrong = not (told or self.lost or self.values)
             return Line(text, Standing.DEPARTS if wrong else Standing.UNREAD)
         if any(self._all_same(last, [value]) for value in self.names.noted(label)):
@@ -468,6 +492,12 @@ class _Follower:
         )
         return Line(text, self._standing if known else Standing.UNREAD)
 
+    def _are_shares(self, asked: Sequence[Sequence[Any]]) -> bool:
+        """Whether what is asked for is one of several numbers that sum to 1."""
+        tables = [[*numbers_of(answer)] for answer in self.state.answers.values() if isinstance(answer, Mapping)]
+        whole = [table for table in tables if all(map(is_rational, table)) and sum(table) == 1]
+        return any(value in table for values in asked for value in values for table in whole)
+
     def _parts_called(self, label: str) -> Sequence[Sequence[Any]]:
         """What a part of a step is worth for which the sheet has a letter: δ, the TD error of an update."""
         found = []
@@ -479,6 +509,18 @@ class _Follower:
                 if (value := value_or_none(part, known)) is not None:
                     found.append([value])
         return found
+
+    def _evidence(self, label: str) -> Iterator[Sequence[Any]]:
+        """What the probability of a measurement, p(z), is worth at some time: a belief is divided by it."""
+        if (said := _OF_MEASUREMENT.fullmatch(spelled(label))) is None:
+            return
+        for number in self._order(None):
+            right, known = self.state.sources[number]
+            if said[1] not in (("z", spelled(str(known["z"]))) if "z" in known else ("D", "Dz")):
+                continue
+            for part in preorder_traversal(right):
+                if part.is_Pow and part.exp == -1 and (value := value_or_none(part.base, known)) is not None:
+                    yield [value]
 
     def _worked(self, text: str, last: Entries, worked: Numbers) -> Line:
         """A line with a working and without a name: wrong where its numbers are those of a step that went wrong."""
@@ -704,6 +746,17 @@ def _all_near(entries: Entries, values: Sequence[Any]) -> bool:
     return len(entries) == len(values) and all(
         near(approximate(value), approximate(one.value)) for one, value in zip(entries, values, strict=True)
     )
+
+
+def _is_rounded(reading: Reading, value: Any) -> bool:
+    """Whether a decimal is a value with too few digits."""
+    with suppress(*UNDONE):
+        return reading.decimal and is_close(reading.value, value) and is_short(reading.value, value)
+    return False
+
+
+def _all_rounded(entries: Entries, values: Sequence[Any]) -> bool:
+    return len(entries) == len(values) and all(map(_is_rounded, entries, values))
 
 
 def _where(value: Any, found: Mapping[str, Any]) -> Any:

@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
+from copy import copy
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -14,7 +15,7 @@ from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, TooLong, leng
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.rational import RationalFunction, linear
+from rldrill.solutions.rational import RationalFunction, linear, with_found
 from rldrill.solutions.solution import solver
 from rldrill.solutions.work import Step, Work
 
@@ -179,6 +180,8 @@ class Replay(Work):
         self.number = self.solved = 0
         self.found: dict[str, dict[Any, Any]] = {}
         self.first: dict[str, Any] = {}
+        self.settled: dict[str, Any] = {}
+        self._sought = ""
         self._again: dict[Any, Any] = {}
 
     def reading(self, formula: Formula) -> Expr:
@@ -244,11 +247,28 @@ class Replay(Work):
 
     def equate(self, letter: str, left: Any, right: Any, **_of: Any) -> Any:
         """The unknown, as somebody gets it who errs in solving the equation, whatever it may be."""
-        number, self.solved = self.solved, self.solved + 1
+        number, self.solved, self._sought = self.solved, self.solved + 1, letter
         if number in self.change.equated:
             return self.change.equated[number]
         linear(left - right, letter)  # what is changed into an equation of higher degree is left
         return super().equate(letter, left, right)
+
+    def answer(self, value: Any) -> Any:
+        """What is gone on with; of an equation that was just solved, the number for its letter."""
+        found = super().answer(value)
+        if self._sought:
+            self.settled[self._sought], self._sought = found, ""
+        return found
+
+    def with_found(self, table: Any) -> Any:
+        """A table of before, with the numbers for the letters in it that were found meanwhile."""
+        if not self.settled or not isinstance(table, dict):
+            return table
+        filled = copy(table)
+        for key, value in table.items():
+            if isinstance(value, RationalFunction) and value.parameter in self.settled:
+                filled[key] = with_found(value, self.settled[value.parameter])
+        return filled
 
     def _applied(
         self, formula: Formula, unknown: type[Quantity], cases: Sequence[Mapping[str, Any]], named: Mapping[str, Any]

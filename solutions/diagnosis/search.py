@@ -199,11 +199,11 @@ class Search:
             return
 
         def stale(replay: Replay, _: Formula, known: Mapping[str, Any]) -> Mapping[str, Any]:
-            return {name: replay.first.setdefault(name, value) if name in codes else value
+            return {name: replay.with_found(replay.first.setdefault(name, value)) if name in codes else value
                     for name, value in known.items()}  # fmt: skip
 
         def early(replay: Replay, _: Formula, known: Mapping[str, Any]) -> Mapping[str, Any]:
-            return {name: {**value, **replay.found.get(name, {})} if name in codes else value
+            return {name: {**value, **replay.with_found(replay.found.get(name, {}))} if name in codes else value
                     for name, value in known.items()}  # fmt: skip
 
         tables = any(application.formula.sign == "←" for application in self.applications)

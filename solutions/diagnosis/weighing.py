@@ -31,6 +31,8 @@ _PLACES = 8
 _FINE, _FINEST, _PRECISE = 1e6, 10_000, 1e-6
 #: A decimal tells no more numbers apart than this, where it is a rounded one.
 _ROUNDED = 900
+#: So many answers are as good as any number of them.
+_MUCH_ROOM = 10**15
 #: The logarithm of so many answers that could have been typed is many.
 _MANY = log(400)
 #: What counts otherwise where the answer is one number alone.
@@ -178,9 +180,9 @@ def room(typed: Typed, *, exact: bool) -> float:
             many *= 10_000 if exact else _ROUNDED
             continue
         size = max(abs(approximate(value)), abs(approximate(key)), 1.0)
-        grid = 4 * size * int(value.q)
+        grid = 4 * size * min(int(value.q), _MUCH_ROOM)
         many *= max(4.0, grid if exact else min(grid, _ROUNDED))
-    return min(many, 1e15)
+    return min(many, _MUCH_ROOM)
 
 
 def exactly(typed: Typed, outcome: Outcome) -> bool:

@@ -24,6 +24,8 @@ _MARKS = re.compile(r"′|(?:bar|hat|tilde)(?=\W|\d|\Z)")
 _STROKE, _INDEX_FIRST = re.compile(r"['’`]"), re.compile(r"(?<![^\W\d_])([^\W\d_]+)(\d+)(′+)")
 #: What comes behind a letter: its index, the condition of a probability.
 _INDEX, _CONDITION = re.compile(r"(?<=[^\W\d_])\d+(?=\(|\Z)|(?<=′)\d+(?=\(|\Z)"), re.compile(r"\|[^()|]*(?=\))")
+#: That something was measured, whatever it was.
+_MEASURED = re.compile(r"\|z\d*(?=\))")
 _WORDS = {"gamma": "γ", "alpha": "α", "delta": "δ", "lambda": "λ", "epsilon": "ε", "theta": "θ", "pi": "π", "rho": "ρ",
           "sigma": "σ", "beta": "β", "phi": "φ", "omega": "ω"}  # fmt: skip
 
@@ -39,6 +41,7 @@ def spelled(label: str) -> str:
     for word, letter in _WORDS.items():
         name = name.replace(word, letter)
     name = re.sub(r"(?<![^\W\d_])mu(?![^\W\d_])", "μ", name)
+    name = re.sub(r"(?<![^\W\d_])bel(?=\W|\d|bar)", "p", name)
     return _INDEX_FIRST.sub(r"\1\3\2", _STROKE.sub("′", name))
 
 
@@ -49,6 +52,7 @@ def readings(label: str) -> Iterator[str]:
     yield plain_name(_SCRIPT.sub(r"\1", label))
     yield plain_name(_ABOVE.sub("", label))
     yield _MARKS.sub("", wanted)
+    yield _MEASURED.sub("", wanted)
 
 
 def of_another_index(label: str) -> str:

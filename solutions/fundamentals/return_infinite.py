@@ -1,6 +1,7 @@
 """A geometric series for the rewards that repeat, then the first rewards before it."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from rldrill.problems.exact import Parameter, Scalar, needed, shown
@@ -44,7 +45,7 @@ def solve(given: Given, work: Work) -> None:
     else:
         letter = find(given, work, _from_start(given, work, exact, _tail(given, work, exact)), "R_0")
         if k:
-            work.answer(_tail(given, work, reading(letter)))
+            work.answer(work.either(_tail(given, work, reading(letter)), partial(_rest, given, reading(letter))))
 
 
 def _is_open(rewards: tuple[Scalar, ...]) -> bool:
@@ -77,6 +78,12 @@ def _from_start(given: Given, work: Work, read: Callable[[Scalar], Value], tail:
         return tail
     work.say(f"The first {'reward' if k == 1 else f'{k} rewards'} and the rest, $n = {k}$:")
     return work.step(RETURN_UNROLLED, t=0, n=k, G={k: tail}, **_known(given, read))
+
+
+def _rest(given: Given, read: Callable[[Scalar], Value]) -> Value:
+    """The return of the rewards that repeat, from that of all and the first rewards."""
+    spare = Work()
+    return spare.equate("y", _from_start(given, spare, read, generator("y")), exact(needed(given.known)))
 
 
 def _known(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:

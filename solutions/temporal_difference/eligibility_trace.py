@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from rldrill.problems.exact import Parameter, Scalar, shown
+from rldrill.problems.exact import Parameter, Scalar, needed, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.temporal_difference.eligibility_trace import Given
 from rldrill.solutions.exact import ZERO, Value, exact, to_sympy, value_at
@@ -38,6 +38,8 @@ def solve(given: Given, work: Work) -> None:
         traces |= {state: value_at(value, letter) for state, value in found.items()}
         work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$, after the update at $t = {first}$:")
         work.lines.append(Result(tuple(e(put_in_name(state)) for state in found), tuple(traces[s] for s in found)))
+        known = {given.states[0]: exact(needed(given.known))}
+        traces = work.either(traces, lambda: traces | known)
     for time in asked:
         traces = work.answer(_traces(given, work, read, range(start, time + 1), traces))
         start = time + 1

@@ -1,6 +1,7 @@
 """The rule for answers, and the verdicts that come of it."""
 
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,6 +12,8 @@ from hypothesis import strategies as st
 
 import rldrill
 from numbers_drawn import small
+from rldrill.grading.answers_file import Entry
+from rldrill.grading.marking import Judging, Rules
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
 from rldrill.problems.parts import Numbers, Policy, Values
@@ -295,11 +298,110 @@ def test_a_slip_costs_once() -> None:
 _CLOSE = "Close, but not right: look for a slip, or for numbers that were rounded on the way."
 
 
+#: R₁ = 8 and R₀ = −1 + 3/4·8 = 5; V(reef) = −2 + 1/2·7 = 3/2 and V(bay) = 4 + 1/2·4 = 6.
+BAY = {
+    "trajectory": {"states": ["reef", "bay", "harbour"], "rewards": [-1, 8], "terminal": ["harbour"]},
+    "values": {"reef": -2, "bay": 4},
+    "alpha": "1/2",
+    "gamma": "3/4",
+    "visits": "every",
+}
+_GOES_ON = "Right, going on from your earlier answer."
+
+
+@pytest.mark.parametrize(
+    ("typed", "credit", "says", "wrong"),
+    [
+        # From the returns 1 and 10: V(reef) = −2 + 1/2·3 = −1/2 and V(bay) = 4 + 1/2·6 = 7.
+        ("reef: -1/2, bay: 7", 1, _GOES_ON, ()),
+        ("reef: 3/2, bay: 7", 1, _GOES_ON, ()),
+        ("reef: 3/2, bay: 6", 1, "Right.", ()),
+        ("reef: 3/2, bay: 9", Fraction(1, 2), "Not right at bay; the rest is right.", ("bay",)),
+        (
+            "reef: -1/2, bay: 9",
+            Fraction(1, 2),
+            "Not right at bay; the rest is right, going on from your earlier answer.",
+            ("bay",),
+        ),
+        ("reef: 8, bay: 9", 0, "Not right.", ("reef", "bay")),
+        ("reef: -1/2, bay: 7.1", Fraction(1, 2), _CLOSE, ("bay",)),
+        (
+            "reef: -1/2",
+            Fraction(1, 2),
+            "Not right at bay (left out); the rest is right, going on from your earlier answer.",
+            ("bay",),
+        ),
+    ],
+)
+def test_every_number_is_right_or_goes_on(typed: str, credit: Fraction, says: str, wrong: tuple[str, ...]) -> None:
+    solution = problem("monte-carlo", **BAY)
+    verdict = judge(solution, "b", typed, {"a": judge(solution, "a", "1, 10").value})
+    assert (verdict.credit, verdict.says, verdict.wrong_cells) == (credit, says, wrong)
+
+
+def test_what_goes_on_earns_its_share_wherever_it_is_graded() -> None:
+    # From the returns 1 and 10 V(reef) is −1/2; the value of bay is neither 6 nor 7.
+    given_ = rldrill.Exercise(problem("monte-carlo", **BAY))
+    texts = {"a": "1, 10", "b": "reef: -1/2, bay: 9"}
+    graded = given_.grade(texts)
+    assert graded["b"].points == Fraction(graded["b"].of, 2)
+    entries = {part: Entry("", "bay", part, text, None, Path("bay.csv")) for part, text in texts.items()}
+    (_, _, judged) = Judging(given_, Rules(), {}).marks(entries)[1]
+    assert judged.score.points == graded["b"].points
+    assert judged.reason.startswith("Not right at bay; the rest is right, going on from your earlier answer.")
+
+
+@pytest.mark.parametrize(
+    ("typed", "credit", "says"),
+    [
+        # By V2 = (100, −200) it is slow in cool (101 > 2 − 50) and fast in warm (−10 > 1 − 50); right is fast, slow.
+        ("cool: slow, warm: fast", 1, _GOES_ON),
+        ("cool: fast, warm: slow", 1, "Right."),
+        ("cool: slow, warm: slow", 0, "Not right at cool; the rest is right."),
+        ("cool: fast, warm: fast", 0, "Not right at warm; the rest is right."),
+    ],
+)
+def test_of_two_actions_not_both_are_right(typed: str, credit: int, says: str) -> None:
+    _, verdict = verdicts("cool: 100, warm: -200", typed)
+    assert (verdict.credit, verdict.says) == (credit, says)
+
+
+def test_a_policy_goes_on_as_a_whole() -> None:
+    # By V2 = (50, 0) it is slow in both: 51 > 2 + 25 and 1 + 25 > −10; right is fast in cool.
+    _, verdict = verdicts("cool: 50, warm: 0", "cool: slow, warm: fast")
+    assert verdict.says == "At warm this does not go on from your earlier answer; the rest does."
+    assert (verdict.credit, verdict.wrong_cells) == (0, ("warm",))
+
+
 def test_close_says_so_and_earns_nothing() -> None:
     solution = problem("return", rewards=[1, 1, 1], gamma="1/3", time=0)  # 13/9 = 1.444…
     verdict = judge(solution, "a", "1.46")
     assert verdict.outcome is Outcome.CLOSE
     assert verdict.credit == 0
+
+
+_FEW = "there are too few digits, give three or an exact value"
+
+
+@pytest.mark.parametrize(
+    ("typed", "says"),
+    [
+        ("-13, 3.3, 0.1", "Right idea; give an exact value or three digits."),
+        ("-13, 3.3, 0.2", f"Not right at c; at a and b {_FEW}."),
+        ("-12.54, 3.3, 0.2", f"Not right at c; at b {_FEW}; the rest is right."),
+        ("-12.54, 3.32, 0.1", "Not right at c; the rest is right."),  # no other entry is rounded so
+        ("-13, 3.4, 0.1", "Not right."),
+        ("-12, 3.3, 0.1", f"Not right at a; at b and c {_FEW}."),
+        ("-13, 3, 0.1", "Not right."),
+    ],
+)
+def test_entries_with_too_few_digits_are_parted_from_those_that_are_off(typed: str, says: str) -> None:
+    # With α = γ = 1 and V = 0 the values are the returns: 0.06, 3.26 + 0.06 and −15.86 + 3.32.
+    run = {"states": ["a", "b", "c", "end"], "rewards": ["-15.86", "3.26", "0.06"], "terminal": ["end"]}
+    solution = problem("monte-carlo", trajectory=run, values=dict.fromkeys("abc", 0), alpha=1, gamma=1, visits="every")
+    verdict = judge(solution, "b", typed)
+    assert verdict.says == says
+    assert not verdict.accepted
 
 
 @pytest.mark.parametrize("odd", ["800, 0", "2, 1e40", "-1e40, 1e40"])
@@ -339,6 +441,15 @@ def test_a_terminal_state_may_be_given_its_zero() -> None:
     assert verdicts("cool: 3.5, warm: 2.5, overheated: 0")[0].outcome is Outcome.RIGHT
     assert verdicts("3.5, 2.5, 0", "fast, slow, -")[1].outcome is Outcome.RIGHT
     assert "'overheated' is terminal" in verdicts("cool: 3.5, warm: 2.5, overheated: -10")[0].says
+
+
+@pytest.mark.parametrize("zero", [", goal: 0", ", goal 0"])
+def test_the_goal_of_a_graph_may_be_given_its_zero(zero: str) -> None:
+    # From b to the goal 2; from a through b 1 + 2.
+    solution = problem("principle-of-optimality", edges=[["a", "b", 1], ["b", "goal", 2]], start="a", goal="goal")
+    typed = f"a{zero[6]} 3, b{zero[6]} 2{zero}".replace("  ", " ")
+    assert judge(solution, "a", typed).outcome is Outcome.RIGHT
+    assert "'goal' is terminal" in judge(solution, "a", "a: 3, b: 2, goal: 1").says
 
 
 def test_an_action_in_a_terminal_state_may_be_given_its_zero() -> None:
@@ -567,3 +678,29 @@ def test_what_follows_before_a_part_that_has_no_answer_then_is_right() -> None:
     assert [part.verdict and part.verdict.outcome for part in graded.parts[:3]] == [
         Outcome.WRONG, Outcome.FOLLOW_THROUGH, Outcome.WRONG,
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("typed", "says"),
+    [
+        ("V(new) = 25", "V(new) is not asked for here, but V(worn)."),
+        ("V^π(new): 25", "V^π(new) is not asked for here, but V^π(worn)."),
+        ("V(new) = 3\nV(worn) = 25", ""),
+        ("V(worn) = 3\nV(new) = 25", "V(new) is not asked for here, but V(worn)."),
+        ("V_pi(Worn) = 25", ""),
+        ("V(s = worn) = 25", ""),
+        ("V(s) = 25", ""),
+        ("abs(gamma) = 25", ""),
+        ("25", ""),
+    ],
+)
+def test_the_value_of_another_state_is_not_taken_for_that_of_the_one(typed: str, says: str) -> None:
+    # V^π(worn) = 1/2·(8 + 4/5·30) + 1/2·(6 + 4/5·15) = 16 + 9
+    steps = [["worn", "run", "rattling", 1, 8], ["worn", "repair", "new", 1, 6]]
+    values, policy = {"new": 15, "rattling": 30}, {"worn": {"run": "1/2", "repair": "1/2"}}
+    solution = problem("bellman-backup", dynamics={"transitions": steps}, values=values, gamma="4/5", policy=policy)
+    verdict = judge(solution, "a", typed)
+    if says:
+        assert (verdict.outcome, verdict.says) == (Outcome.UNREADABLE, says)
+    else:
+        assert "asked for" not in verdict.says

@@ -219,3 +219,21 @@ def test_bars_around_what_may_be_negative_are_refused_with_both_readings(text: s
 @pytest.mark.parametrize(("text", "value"), [("|3|", 3), ("|4 - 1|", 3), ("| -3 |", -3), ("abs(3 - 4)", 1)])
 def test_bars_that_change_nothing_are_read(text: str, value: int) -> None:
     assert read_number(text).value == value
+
+
+@pytest.mark.parametrize(
+    ("text", "agree"),
+    [
+        ("1/3 = .33", True), ("1/3 = .34", False), ("1/3 ≈ 33%", True), ("1/3 ≈ 43%", False),
+        # 1/123456789 = 8.10000007…·10⁻⁹
+        ("1/123456789 ≈ 8.1e-9", True), ("1/123456789 ≈ 8.2e-9", False), ("1/123456789 ≈ 8.1·10⁻⁹", True),
+        ("1/123456789 ≈ 8.2·10^(- 9)", False),
+        ("1/123456789 ≈ 8.1·10^(- 9)", True), ("12345 ≈ 1.23·10⁴", True), ("12345 ≈ 1.24·10^4", False),
+    ],
+)  # fmt: skip
+def test_a_decimal_beside_a_number_is_that_number_rounded(text: str, agree: bool) -> None:
+    if agree:
+        assert read_number(text).value == read_number(text.split()[0]).value
+    else:
+        with pytest.raises(Unreadable, match="differ"):
+            read_number(text)

@@ -324,7 +324,7 @@ def test_all_states_by_their_numbers():
         ("war}m: 2.5, cool: 3.5", "'war}m' is not a key here"),
         ("war(m): 2.5, cool: 3.5", "'war(m)' is not a key here"),
         ("wârm: 2.5, cool: 3.5", "'wârm' is not a key here"),
-        ("cool 3.5\nwarm 2.5\nhot 9", "'cool' is not something this answer may contain"),
+        ("cool 3.5\nwarm 2.5\nhot 9", "'hot' is not a key here"),
         ("cool - 3.5, warm - 2.5", "may be a minus sign"),
         ("cool: 3.5 hot: 2.5", "holds two keys"),
         ("cool: 3, 5x, warm: 2", "'5x' is not understood; write it as cool: … ."),

@@ -92,3 +92,12 @@ def test_what_is_printed_of_a_large_model_can_be_typed() -> None:
         for text in texts:
             assert exercise.check(text, part.label).outcome is Outcome.RIGHT, (part.label, text[:200])
         assert "longer than" in exercise.check("1" * 5 * max(map(len, texts)), part.label).says
+
+
+def test_what_is_printed_of_hundreds_of_tosses_can_be_typed() -> None:
+    given = {"heads": 140, "tails": 110, "prior": {"biased": 0.5, "fair": 0.5},
+             "models": {"biased": {"a": 1, "b": 1}, "fair": {"theta": 0.5}}}  # fmt: skip
+    exercise = read({"family": "model-comparison", "given": given})
+    for text in (*printed(exercise, exercise.parts[0]), "2.635·10⁻⁷⁶, 5.527·10⁻⁷⁶", "2.635e-76, 2^-250"):
+        assert exercise.check(text).outcome is Outcome.RIGHT, text
+    assert exercise.diagnose(f"1/1{'0' * 400}, 2^-250").kind == "unexplained"  # no fault of its size

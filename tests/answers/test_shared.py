@@ -7,7 +7,7 @@ from flint import fmpq
 
 import rldrill
 from promptness import at_once
-from rldrill.problems.parts import Policy
+from rldrill.problems.parts import Numbers, Policy
 from rldrill.solutions.answers.kinds import Allowed, answer_kind
 from rldrill.solutions.answers.text import (
     Unreadable,
@@ -55,7 +55,7 @@ def test_one_value_for_all_states(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["up: 2/3, others: 1/6", "up = 2/3, all others = 1/6", "up: 2/3; the rest: 1/6",
-                                  "up: 2/3, others: 1/6, goal: 0"])  # fmt: skip
+                                  "up 2/3, others 1/6", "up: 2/3, others: 1/6, goal: 0"])  # fmt: skip
 def test_what_is_not_named_is_the_rest(text: str) -> None:
     read = read_table(text, ["left", "up", "right"], ends=["goal"])
     assert [reading.value for reading in read.values()] == [fmpq(1, 6), fmpq(2, 3), fmpq(1, 6)]
@@ -77,7 +77,7 @@ def test_a_row_for_each_state(text: str) -> None:
     assert [reading.value for reading in read_table(text, PAIRS).values()] == [-2, 3, 4, 6]
 
 
-@pytest.mark.parametrize("text", ["-2,3; 4,6", "cool: -2,3; warm: 4,6", "cool: 1, 2, 3; warm: 4"])
+@pytest.mark.parametrize("text", ["-2,3; 4", "cool: -2,3; warm: 4,6", "cool: 1, 2, 3; warm: 4"])
 def test_rows_whose_commas_may_be_decimal_or_of_another_length_are_none(text: str) -> None:
     with pytest.raises(Unreadable):
         read_table(text, PAIRS)
@@ -174,3 +174,86 @@ def test_what_is_neither_an_action_behind_a_value_nor_its_working(text: str) -> 
 def test_a_working_of_the_one_value_that_is_asked_for() -> None:
     assert [each.value for each in read_table("= 4 + 0.5*(0 - 2) = 3", ["floor"]).values()] == [3]
     assert [each.value for each in read_table("1 = 2, 2 = 3", ["1", "2"]).values()] == [2, 3]
+
+
+@pytest.mark.parametrize("text", ["slow in all three states", "Slow for every state.", "in all 3: slow"])
+def test_how_many_there_are_may_be_said(text: str) -> None:
+    actions = dict.fromkeys(("cool", "warm", "hot"), ("fast", "slow"))
+    assert read_words(text, tuple(actions), actions) == dict.fromkeys(actions, ("slow",))
+
+
+@pytest.mark.parametrize("text", ["slow in all two states", "slow in all four", "slow in three states", "slow in both"])
+def test_another_number_of_them_is_not_all(text: str) -> None:
+    actions = dict.fromkeys(("cool", "warm", "hot"), ("fast", "slow"))
+    with pytest.raises(Unreadable):
+        read_words(text, tuple(actions), actions)
+
+
+@pytest.mark.parametrize(
+    "text", ["cool: fast -2, slow 3; warm: fast 4, slow 6", "cool: slow 3, fast -2; warm: slow 6, fast 4", "-2,3;4,6"]
+)
+def test_rows_of_a_table_may_name_their_entries(text: str) -> None:
+    keys = [(state, action) for state in ("cool", "warm") for action in ("fast", "slow")]
+    assert [reading.value for reading in read_table(text, keys).values()] == [-2, 3, 4, 6]
+
+
+def test_decimal_commas_of_two_values_are_told() -> None:
+    with pytest.raises(Unreadable, match="decimal comma"):
+        read_table("8,10;8,4", ["cool", "warm"])
+
+
+@pytest.mark.parametrize("text", ["C1 = 0, C2 = 3", "c_2: 3; c_1: 0", "C[1] = 0\nC[2] = 3"])
+def test_a_column_may_be_typed_entry_by_entry(text: str) -> None:
+    assert [[entry and entry.value for entry in row] for row in read_matrix(text, (2, 1))] == [[0], [3]]
+
+
+@pytest.mark.parametrize("text", ["C1 = 0, D2 = 3", "C1 = 0, C3 = 3", "C1 = 0, C1 = 3"])
+def test_entries_of_other_names_are_no_column(text: str) -> None:
+    with pytest.raises(Unreadable):
+        read_matrix(text, (2, 1))
+
+
+@pytest.mark.parametrize("text", ["bellman equation for V^pi", "the Bellman equation for V_pi", "$V^{pi}$"])
+def test_pi_may_be_typed_in_the_name_of_an_option(text: str) -> None:
+    options = {"A": "the Bellman equation for $V^π$", "B": "the Bellman equation for $V^*$", "C": "TD(0)"}
+    assert read_choice(text, options) == "A"
+
+
+@pytest.mark.parametrize("text", ["G1 = 2, G0 = 3", "R_1 = 2, R_0 = 3", "G_0: 3; G_1: 2"])
+def test_entries_have_the_names_of_any_course(text: str) -> None:
+    read = answer_kind(Numbers(("R_0", "R_1"))).read(text, Allowed())
+    assert [cell.value for cell in read.values()] == [3, 2]  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("text", ["G2 = 2, G1 = 3", "H1 = 2, H0 = 3"])
+def test_other_names_are_none_of_them(text: str) -> None:
+    with pytest.raises(Unreadable):
+        answer_kind(Numbers(("R_0", "R_1"))).read(text, Allowed())
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["right right exit\nup # up", "→ → e\n↑ # ↑", "> > exit; ^ # ^", "right right exit | up # up",
+     "right right exit; up up"],
+)  # fmt: skip
+def test_a_policy_of_a_grid_may_stand_on_one_line(text: str) -> None:
+    moves = ("up", "right", "down", "left")
+    cells = {"r1c1": moves, "r1c2": moves, "r1c3": ("exit",), "r2c1": moves, "r2c3": moves}
+    read = read_words(text, tuple(cells), cells, ["over"])
+    assert [action for (action,) in read.values()] == ["right", "right", "exit", "up", "up"]
+
+
+def test_rows_of_arrows_may_stand_on_one_line() -> None:
+    moves = dict.fromkeys(("r1c1", "r1c2", "r2c1"), ("up", "right", "down", "left"))
+    assert [*read_words(">> ^G", tuple(moves), moves, ["r2c2"]).values()] == [("right",), ("right",), ("up",)]
+
+
+@pytest.mark.parametrize("text", ["up left/right up", "up down; left", "up up up up; up"])
+def test_words_of_another_number_are_no_rows(text: str) -> None:
+    moves = dict.fromkeys(("r1c1", "r1c2", "r2c1", "r2c2"), ("up", "right", "down", "left"))
+    with pytest.raises(Unreadable):
+        read_words(text, tuple(moves), moves)
+
+
+def test_a_belief_may_stand_in_angles() -> None:
+    assert [reading.value for reading in read_table("<1/4, 3/4>", STATES).values()] == [fmpq(1, 4), fmpq(3, 4)]

@@ -323,3 +323,110 @@ def test_a_line_is_handed_back_as_it_was_typed() -> None:
     with used("control"):
         told = rldrill.load("linearise/1/5").follow(["A_21 = $-10$", " ", "$5$"])
     assert [line.text for line in told.lines] == ["A_21 = $-10$", "$5$"]
+
+
+#: V(a) ← 1/3·7 = 7/3, then V(b) ← 1/3·(1 + 7/3) = 10/9; with 2.3 for the first the second is 1.1.
+THIRDS = {
+    "family": "td-zero",
+    "given": {
+        "trajectory": {"states": ["a", "b", "a"], "rewards": [7, 1]},
+        "values": {"a": 0, "b": 0},
+        "alpha": "1/3",
+        "gamma": 1,
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("lines", "standings"),
+    [
+        (["V(a) = 2.33", "V(b) = 1.11"], ["right", "right"]),
+        (["V(a) = 2.3", "V(b) = 1/3*(1 + 2.3) = 1.10"], ["short", "follows"]),
+        (["V(a) = 7/3 = 2.3", "V(b) = 10/9"], ["short", "follows"]),
+        (["V(a) = 2.4"], ["departs"]),
+        (["V(a) = 2.2"], ["departs"]),
+    ],
+)
+def test_a_value_with_too_few_digits_is_told_so(lines: list[str], standings: list[str]) -> None:
+    followed = rldrill.read(THIRDS).follow(lines)
+    assert [line.standing for line in followed.lines] == standings
+    assert ("too few digits" in followed.sentence) == ("short" in standings)
+
+
+# p(z) = 3/5·1/2 + 1/5·1/2 = 2/5 and the belief (3/10, 1/10)/(2/5) = (3/4, 1/4); then the motion gives 3/4 + 4/5·1/4
+# = 19/20 and 1/20, p(z) = 3/5·19/20 + 1/5·1/20 = 29/50, and 57/58.
+DOOR = {
+    "family": "bayes-filter",
+    "given": {
+        "belief": {"open": "1/2", "closed": "1/2"},
+        "run": [{"measurement": "seen open"}, {"action": "push", "measurement": "seen open"}],
+        "likelihood": {"seen open": {"open": "3/5", "closed": "1/5"}},
+        "motion": {"push": {"open": {"open": 1}, "closed": {"open": "4/5", "closed": "1/5"}}},
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("line", "standing"),
+    [
+        ("p(z) = .6*.5 + .2*.5 = .4", "right"), ("p(z) = .6*.5 + .2*.5 = .5", "miscalculated"),
+        ("p(z) = 0.5", "departs"), ("p(seen open) = 2/5", "right"), ("p(z2) = 29/50", "right"),
+        ("p(closed|z) = 1/4", "right"),
+        ("p(closed|z) = .5", "departs"), ("bel(open) = 2.5*.3 = .75", "right"), ("bel(closed) = 1/4", "right"),
+        ("bel(closed)=2.5*.2=.5", "departs"), ("bel_bar(open) = 0.95", "right"), ("bel(seen) = 1/2", "unread"),
+    ],
+)  # fmt: skip
+def test_the_names_of_probabilistic_robotics_are_read(line: str, standing: str) -> None:
+    (told,) = rldrill.read(DOOR).follow([line]).lines
+    assert told.standing == standing
+
+
+def test_what_was_not_judged_is_not_said_to_be_right(run: rldrill.Exercise) -> None:
+    assert run.follow(["V(cave) = 10", "x = 7"]).sentence == "The rest is right; one line was not judged."
+    assert run.follow(["V(cave) = 10", "x = 7", "y = 5"]).sentence == "The rest is right; 2 lines were not judged."
+    assert run.follow(["V(cave) = 10"]).sentence == "All of this is right as far as it goes."
+
+
+# x = cos φ₁ + cos φ₂ and y = sin φ₁ + sin φ₂ with φ₁ = 0, φ₂ = π/2: J = (−1, −1; 1, 0).
+ELBOW = {"family": "jacobian", "given": {"lengths": [1, 1], "angles": ["0", "π/2"], "rates": [1, 2]}}
+
+
+@pytest.mark.parametrize(
+    ("line", "standing"),
+    [("J11 = -1", "right"), ("J_11 = -1", "right"), ("J12 = 1", "departs"), ("J21 = 1", "right"), ("J22 = 0", "right")],
+)
+def test_the_entries_of_a_matrix_that_is_asked_for_have_names(line: str, standing: str) -> None:
+    (told,) = rldrill.read(ELBOW).follow([line]).lines
+    assert told.standing == standing
+
+
+# Ahead p(rain) = 0.7·1/2 + 0.3·1/2 = 1/2; with the umbrella 0.9·1/2 to 0.2·1/2, 9/11 to 2/11; ahead again
+# 0.7·9/11 + 0.3·2/11 = 69/110 = 0.62727…, and 0.9·69/110 = 0.564545….
+UMBRELLA = {
+    "family": "bayes-filter",
+    "given": {
+        "belief": {"rain": "1/2", "dry": "1/2"},
+        "run": [{"measurement": "umbrella", "action": "day"}, {"action": "day", "measurement": "umbrella"}],
+        "motion": {"day": {"rain": {"rain": 0.7, "dry": 0.3}, "dry": {"rain": 0.3, "dry": 0.7}}},
+        "likelihood": {"umbrella": {"rain": 0.9, "dry": 0.2}},
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("line", "standing"),
+    [("0.9*0.627 = 0.565", "right"), ("0.9*0.627 = 0.575", "miscalculated"), ("0.9*0.627 = 0.58", "miscalculated")],
+)
+def test_a_calculator_may_keep_more_digits_than_are_written(line: str, standing: str) -> None:
+    (told,) = rldrill.read(UMBRELLA).follow([line]).lines
+    assert told.standing == standing
+
+
+def test_what_is_not_divided_by_its_sum_yet_is_not_wrong() -> None:
+    # d = (9, 4, 1)/14: with d(rainy) = 1 the others are 4 and 9.
+    steps = [["sunny", "sunny", 0.8, 0], ["sunny", "cloudy", 0.2, 0], ["cloudy", "sunny", 0.4, 0],
+             ["cloudy", "cloudy", 0.4, 0], ["cloudy", "rainy", 0.2, 0], ["rainy", "sunny", 0.2, 0],
+             ["rainy", "cloudy", 0.6, 0], ["rainy", "rainy", 0.2, 0]]  # fmt: skip
+    given = {"gamma": 1, "average": True, "mdp": {"transitions": steps}}
+    followed = rldrill.read({"family": "policy-value", "given": given}).follow(["d(rainy) = 1", "d(rainy) = 1/14"])
+    assert [line.standing for line in followed.lines] == ["unread", "right"]

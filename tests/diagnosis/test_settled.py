@@ -1,6 +1,9 @@
 """Nobody who had an earlier part right is told of a mistake that would have spoilt it."""
 
+from fractions import Fraction
 from pathlib import Path
+
+import pytest
 
 import rldrill
 from rldrill.grading.verification import verify
@@ -158,3 +161,33 @@ def test_what_gives_the_wrong_answer_before_as_well_is_told_again() -> None:
     assert exercise.diagnose("25/2", "b", {"a": "44/3"}).sentence == (
         "It looks as if V(sₜ) has the wrong sign in the first update (t = 0)."
     )
+
+
+# 1/2·q : 1/4·(1 − q) = 2 : 1, so q = 1/2; then 2/3·1/4 : 1/3·3/4 = 2 : 3. From the first belief it is 1/8 : 3/8.
+FOUND = {
+    "family": "bayes-rule",
+    "given": {
+        "prior": {"h": "q", "k": "1-q"},
+        "likelihood": {"z": {"h": "1/2", "k": "1/4"}, "w": {"h": "1/4", "k": "3/4"}},
+        "measurements": ["z", "w"],
+        "outcome": {"state": "h", "probability": "2/3"},
+    },
+}
+
+
+def test_what_was_there_at_the_start_has_the_number_that_was_found() -> None:
+    exercise = rldrill.read(FOUND)
+    assert exercise.answers() == {"a": Fraction(1, 2), "b": {"h": Fraction(2, 5), "k": Fraction(3, 5)}}
+    assert exercise.diagnose("1/4, 3/4", "b", {"a": "1/2"}).kind == "stale"
+
+
+@pytest.mark.parametrize(
+    "name", ["bayes-predict", "bayes-rule", "eligibility-trace", "linear-value", "return-infinite"]
+)
+def test_what_is_listed_can_be_typed(name: str) -> None:
+    """No wrong answer holds a letter that was to be found."""
+    for seed in (1, 2, 3):
+        exercise = rldrill.draw(name, 3, seed)
+        for part in exercise.parts:
+            for wrong in exercise.diagnosing.wrong_answers(part.label, 40):
+                assert exercise.check(wrong.answer, part.label).outcome is not Outcome.UNREADABLE, wrong.answer

@@ -87,6 +87,14 @@ def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, ma
     assert student(report, "Ben").parts[0].judged.read.startswith("δ₀: ")
 
 
+def test_of_an_exam_with_decimal_commas_the_comma_is_not_blamed(tmp_path: Path) -> None:
+    blueprint = Blueprint(problems=(Asked(id="td-zero/2/18"),), seed=1, decimal_mark=",")
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    report = graded(tmp_path, [("Ann", "", "1", "a", "-6; 3,2; minus three")], Assignment(tmp_path / "exam.json"))
+    judged = student(report, "Ann").parts[0].judged
+    assert (judged.verdict, "comma" in judged.reason, "'three'" in judged.reason) == ("unreadable", False, True)
+
+
 def test_a_part_that_shall_not_count_decides_nothing(tmp_path: Path) -> None:
     path, made = exam(tmp_path)
     data = json.loads(path.read_text())
@@ -225,6 +233,33 @@ def test_whoever_may_have_handed_in_is_not_said_to_have_handed_in_nothing(tmp_pa
     assert student(report, "Ben Ali").unread == ""
     report = graded(tmp_path, [("Benjamin", "", "1", "a", "1")], Assignment(path))
     assert "perhaps it is under one that is not on the roster" in student(report, "Ben Ali").unread
+
+
+def test_blank_answers_are_a_hand_in(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    report = graded(tmp_path, [("Ann Lee", "", "1", "a", ""), ("", "8", "2", "a", " ")], Assignment(path))
+    ann = student(report, "Ann Lee")
+    assert [(part.judged.verdict, part.score.points) for part in ann.parts] == [("missing", 0)] * 3
+    assert (ann.unread, report.refused, report.exit_code) == ("", (), 1)
+    assert student(report, "Ben Ali").unread == ""
+
+
+@pytest.mark.parametrize("content", ['student = "Ann Lee"', 'student = "Ann Lee"\n[1]\n'])
+def test_a_file_with_nothing_but_a_name_is_a_hand_in(tmp_path: Path, content: str) -> None:
+    path, _ = exam(tmp_path, roster=TWO)
+    (tmp_path / "ann.toml").write_text(content)
+    report = verify([tmp_path / "ann.toml"], Settings(assignment=Assignment(path)))
+    assert [(each.student, each.unread) for each in report.students] == [
+        ("Ann Lee", "handed in, without an answer"),
+        ("Ben Ali", ""),
+    ]
+    assert report.exit_code == 1
+
+
+@pytest.mark.parametrize(("known", "typed"), [("Ben O\u2019Hara", "ben O'Hara"), ("Li-Lei", "Li\u2010Lei")])
+def test_apostrophes_and_hyphens_are_alike_in_names(tmp_path: Path, known: str, typed: str) -> None:
+    path, _ = exam(tmp_path, roster=(Person(known, "8"), Person("Ben Ali", "9")))
+    assert graded(tmp_path, [(typed, "", "1", "a", "1")], Assignment(path)).students[0].student == known
 
 
 def test_of_two_of_one_name_nobody_is_said_to_have_handed_in_for_certain(tmp_path: Path) -> None:

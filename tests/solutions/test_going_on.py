@@ -71,3 +71,66 @@ def test_a_discount_that_was_found_can_be_forgotten_afterwards() -> None:
     assert exercise.answers() == {"a": Fraction(1, 2), "b": 5}
     for earlier in ({"a": "1/2"}, {}):
         assert exercise.diagnose("8", "b", earlier).sentence == "The features at time t count with γᵗ."
+
+
+@pytest.mark.parametrize(
+    ("family", "given", "own", "stated", "follows"),
+    [
+        # 3/4·q = 1/2, so q = 2/3. With 1/3: 1/2·1/3 from the belief that is known, 3/4·1/3·1/3 from the start.
+        (
+            "bayes-predict",
+            {
+                "belief": {"a": "3/4", "b": "1/4"},
+                "motion": {"go": {"a": {"a": "q", "b": "1-q"}, "b": {"b": "1"}}},
+                "actions": ["go", "go"],
+                "outcome": {"state": "a", "probability": "1/2"},
+            },
+            "1/3",
+            "a: 1/6, b: 5/6",
+            "a: 1/12, b: 11/12",
+        ),
+        # q/(q + 1/4) = 2/3, so q = 1/2. With 3/4: 2/3·3/4 to 1/3·1/4 from the belief that is known; 9/16 to 1/16.
+        (
+            "bayes-rule",
+            {
+                "prior": {"h": "1/2", "k": "1/2"},
+                "likelihood": {"z": {"h": "q", "k": "1/4"}},
+                "measurements": ["z", "z"],
+                "outcome": {"state": "h", "probability": "2/3"},
+            },
+            "3/4",
+            "h: 6/7, k: 1/7",
+            "h: 9/10, k: 1/10",
+        ),
+        (
+            "bayes-filter",
+            {
+                "belief": {"h": "1/2", "k": "1/2"},
+                "likelihood": {"z": {"h": "q", "k": "1/4"}},
+                "motion": {},
+                "run": [{"measurement": "z"}, {"measurement": "z"}],
+                "outcome": {"state": "h", "probability": "2/3"},
+            },
+            "3/4",
+            "h: 6/7, k: 1/7",
+            "h: 9/10, k: 1/10",
+        ),
+        # 2 + γ·3/(1 − γ) = 5, so γ = 1/2. With 3/4: (5 − 2)/(3/4), and 3/(1 − 3/4).
+        ("return-infinite", {"known": 5, "first": [2], "repeated": [3], "gamma": "gamma"}, "3/4", "4", "12"),
+        # γλ = 1/4, so λ = 1/2. With 1: 1/4·1/2 from the trace that is known, 1/2·1/2 from the start; b: 1/2 + 1.
+        (
+            "eligibility-trace",
+            {"known": "1/4", "states": ["a", "b", "b"], "gamma": "1/2", "lam": "lambda", "asked": [1, 2]},
+            "1",
+            "a: 1/8, b: 3/2",
+            "a: 1/4, b: 3/2",
+        ),
+    ],
+)
+def test_with_an_own_letter_one_goes_on_from_what_is_stated_or_from_the_letter(
+    family: str, given: dict[str, Any], own: str, stated: str, follows: str
+) -> None:
+    exercise = rldrill.read({"family": family, "given": given})
+    for typed in (stated, follows):
+        assert exercise.grade({"a": own, "b": typed})["b"].outcome is Outcome.FOLLOW_THROUGH
+        assert not exercise.check(typed, "b").accepted
