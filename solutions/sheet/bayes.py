@@ -170,7 +170,7 @@ with evaluate(False):
         when=lambda given: not given.prior_found,
     )
     MEASURED_TWICE = Misconception(
-        "measured-twice", "Every measurement counts once: those before are in the belief already."
+        "measured-twice", "Every measurement counts once: its likelihood is one factor, not two."
     )
     OTHER_MEASUREMENT = Misconception(
         "other-measurement",
