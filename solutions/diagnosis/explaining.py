@@ -30,6 +30,8 @@ ENOUGH_IF_PLAIN = 0.5
 #: arithmetic; hardly anything is what is left beside so much of all that gives it.
 ENOUGH_ALONE, NEARLY_ALL = 0.3, 0.8
 PLAIN = frozenset(("factor-left-out", "term-left-out", "earlier-time", "other-side"))
+#: What is said rather than what comes to the same: V is kept, not its change missing; P is missing, not a bracket off.
+PLAINEST = frozenset(("kept", "factor-left-out"))
 #: So likely two causes together must be: one that nobody thought of often gives what two others give by chance.
 ENOUGH_FOR_TWO = 0.9
 #: So likely edits must be that a right answer to a part before denies: who made them did not go on from it.
@@ -144,9 +146,9 @@ def _led(groups: Sequence[Sequence[int]], causes: Sequence[Cause], shares: Seque
 def _foremost(group: Sequence[int], causes: Sequence[Cause], shares: Sequence[float]) -> tuple[str, Expr | None]:
     """What was done to what by the likeliest cause of a group; or by one about as likely that is plainer."""
     most = max(shares[one] for one in group)
-    likely = [causes[one] for one in group if shares[one] >= AS_LIKELY * most]
-    plainest = max(likely, key=lambda cause: (cause.kind == "kept", cause.weight))
-    return plainest.kind, plainest.part
+    likely = [one for one in group if shares[one] >= AS_LIKELY * most]
+    first = causes[max(likely, key=lambda one: (causes[one].kind in PLAINEST, shares[one]))]
+    return first.kind, first.part
 
 
 def _standing(
