@@ -217,15 +217,19 @@ def giving(
     if many < _FEW and not wrong:
         return [], True
 
+    denied: list[Outcome] = []
+
     def standing(found: Iterable[Outcome]) -> list[Outcome]:
-        return [outcomes.made_here(each, settled) for each in found if outcomes.stands(each, settled)]
+        stand: list[Outcome] = []
+        for each in found:
+            (stand if outcomes.stands(each, settled) else denied).append(each)
+        return [outcomes.made_here(each, settled) for each in stand]
 
     finished = outcomes.grow(clock)
-    every = outcomes.giving(typed)
-    found = standing(every)
+    found = standing(outcomes.giving(typed))
     if many < _FEW:
         return [each for each in found if outcomes.gives_before(each, wrong or {})], finished
-    found += _anew(outcomes, every, found, settled)
+    found += _anew(outcomes, denied, found, settled)
     if not found and many >= ROOM_FOR_TWO and finished:
         found = standing(outcomes.giving_apart(typed))
         if not found:
@@ -235,14 +239,13 @@ def giving(
 
 
 def _anew(
-    outcomes: Outcomes, every: Sequence[Outcome], standing: Sequence[Outcome], settled: Mapping[str, Any]
+    outcomes: Outcomes, denied: Sequence[Outcome], standing: Sequence[Outcome], settled: Mapping[str, Any]
 ) -> list[Outcome]:
     """What somebody does who goes on from no right answer before.
 
     Where something is found that denies none, that is a stated mistake alone, and one likelier than all of these.
     """
     highest = max((each.cause.weight for each in standing), default=0.0)
-    denied = [each for each in every if not outcomes.stands(each, settled)]
     found = [anew for each in denied if (anew := outcomes.anew(each, settled)) is not None]
     return [each for each in found if not standing or (each.cause.mistake and each.cause.weight > highest)]
 
