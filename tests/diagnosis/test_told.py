@@ -5,6 +5,8 @@ from typing import Any
 import pytest
 
 import rldrill
+from rldrill.solutions.diagnosis.causes import Cause
+from rldrill.solutions.diagnosis.saying import saying
 
 
 def said(family: str, given: dict[str, Any], typed: str, part: str = "a", earlier: dict[str, str] | None = None) -> str:
@@ -261,3 +263,17 @@ def test_a_return_is_told_with_its_episode() -> None:
         "gamma": 1,
     }
     assert "in R₀ (episode 2)" in said("importance-sampling", given, "-3/4 - 9*p/4", "b")
+
+
+@pytest.mark.parametrize(
+    ("kind", "what", "words"),
+    [
+        ("as-above", "rewards of the third of the episodes", "are taken over from the one before"),
+        ("as-above", "second of the actions", "the second of the actions is taken over from the one before"),
+        ("one-too-many", "steps of the second of the diagrams", "there is one step too many in the second of the"),
+        ("one-too-few", "sweeps", "there is one sweep too few"),
+        ("one-too-few", "k of small", "k of small is taken one too small"),
+    ],
+)
+def test_givens_misread_are_told_in_english(kind: str, what: str, words: str) -> None:
+    assert words in "".join(map(str, saying(Cause(kind, 1.0, what=what), ())))
