@@ -24,12 +24,12 @@ from rldrill.solutions.formula.notation import Quantity
 #: from nowhere in twenty is accused of something.
 ENOUGH, TOLD = 0.57, 0.4
 #: So likely it must be where the likeliest is that a factor was left out, or where the answers to the parts before were
-#: right, which leaves fewer causes.
-ENOUGH_IF_PLAIN = 0.5
+#: right and nothing is here, which leaves fewer causes.
+ENOUGH_IF_PLAIN = 0.52
 #: So likely it must be where hardly anything else gives the answer, of which nothing is right, and it is no slip of
-#: arithmetic; hardly anything is what is left beside so much of all that gives it.
-ENOUGH_ALONE, NEARLY_ALL = 0.3, 0.8
-PLAIN = frozenset(("factor-left-out", "term-left-out", "earlier-time", "other-side"))
+#: arithmetic: a line of a table that has but two, or something plain. Nearly all is so much of what gives it.
+ENOUGH_OF_A_LINE, ENOUGH_ALONE, NEARLY_ALL = 0.1, 0.3, 0.8
+PLAIN = frozenset(("factor-left-out", "earlier-time", "other-side"))
 #: What is said rather than what comes to the same: V is kept, not its change missing; P is missing, not a bracket off.
 PLAINEST = frozenset(("kept", "factor-left-out"))
 #: So likely two causes together must be: one that nobody thought of often gives what two others give by chance.
@@ -105,15 +105,17 @@ def _are_enough(
 ) -> bool:
     """Whether all causes together are likely enough to be told, the likeliest first, and those that are told."""
     whole, (share, first) = sum(shares), told[0]
-    plain = causes[first].kind in PLAIN or _is_only_other_line(causes[first])
+    line = _is_only_other_line(causes[first])
+    all_wrong = len(typed.wrong) == len(typed.key)
     if all(cause.then is not None for cause in causes):
         enough = ENOUGH_FOR_TWO
     elif all(cause.anew and cause.mistake is None for cause in causes):
         enough = ENOUGH_ANEW
-    elif plain and share >= NEARLY_ALL * whole and len(typed.wrong) == len(typed.key):
-        return whole >= ENOUGH_ALONE
+    elif all_wrong and (line or causes[first].kind in PLAIN) and share >= NEARLY_ALL * whole:
+        return whole >= (ENOUGH_OF_A_LINE if line else ENOUGH_ALONE)
     else:
-        enough = ENOUGH_IF_PLAIN if settled or causes[first].kind == "factor-left-out" else ENOUGH
+        plain = (settled and all_wrong) or causes[first].kind == "factor-left-out"
+        enough = ENOUGH_IF_PLAIN if plain else ENOUGH
     return whole >= enough and sum(share for share, _ in told) >= TOLD
 
 

@@ -85,6 +85,12 @@ def test_the_only_other_state_of_a_table_is_told() -> None:
     )
 
 
+def test_the_only_other_state_is_told_though_the_number_is_far_from_the_key() -> None:
+    # With γ = 1/2 it is 1/2·(5 + 15/2) + 1/2·(3 − 5) = 21/4, and with −10 for 15 it is 1/2·(5 − 5) + 1/2·(3 − 5) = −1.
+    given = BACKUP | {"values": {"high": -10, "low": 15}, "gamma": "1/2"}
+    assert "V^π(high) = −10 is put in for V^π(low) = 15" in said("bellman-backup", given, "-1")
+
+
 def test_a_factor_left_out_everywhere_is_told_of_a_small_number() -> None:
     # 0 + 4 − 4 + 3 = 3
     assert said("action-value", ACTION, "3").startswith("It looks as if the factor Pₛₛ′ᵃ is missing in Q^π")
