@@ -142,7 +142,8 @@ def _of_table(application: Application, base: Cause) -> Iterator[Cause]:
         yield replace(base, kind="repeated", weight=weights.VALUES["repeated"], became=other)
     if application.first is not None and key in application.first:
         first, now = application.first, known[code]
-        for table in (first, {**first, key: now.get(key)}, {**now, key: first[key]}):
+        own = {**now, key: first[key]} if first[key] != 0 else now  # who takes 0 for a trace leaves it out
+        for table in (first, {**first, key: now.get(key)}, own):
             if table != now and (other := value_or_none(application.right, {**known, code: table})) is not None:
                 yield replace(base, kind="stale", weight=weights.VALUES["stale"], became=other)
 

@@ -293,6 +293,8 @@ def _follows(early: Cause, late: Cause, search: Search) -> bool:
 
 
 def _alike(one: Cause, two: Cause) -> bool:
+    if _is_put_in(one, two) or _is_put_in(two, one):
+        return True
     if not _at_the_same_place(one, two):
         return False
     if one.mistake and two.mistake:
@@ -315,7 +317,14 @@ def _alike(one: Cause, two: Cause) -> bool:
             return edit.edit is not None and other.part in edit.edit.part.args
     if one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE):
         return near
-    return any({one.kind, two.kind} <= group for group in LEFT_OUT) and (here is None or there is None or here == there)
+    return {one.kind, two.kind} <= LEFT_OUT and (here is None or there is None or here == there)
+
+
+def _is_put_in(slip: Cause, other: Cause) -> bool:
+    """Whether the wrong value of a step is what is put in for it in a later one."""
+    if slip.application is None or slip.part is not None or slip.mistake or other.probe is None:
+        return False
+    return str(slip.was) == str(other.was) and str(slip.became) == str(other.other)
 
 
 def _at_the_same_place(one: Cause, two: Cause) -> bool:

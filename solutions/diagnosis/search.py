@@ -255,7 +255,8 @@ class Search:
         timed = [each for group in seen.values() for each in group if isinstance(each.known.get("t"), int)]
         last = max((each.known["t"] for each in timed), default=0)
         at_the_last = [each for each in timed if each.known["t"] == last]
-        if last and len(at_the_last) > 1:
+        tables = {id(each.known[each.formula.left.code]) for each in at_the_last}
+        if last and len(tables) < len(at_the_last):
             cause = Cause("earlier-time", weights.PROCEDURE["earlier-time"], time=last - 1)
             yield from self._left_out(cause, at_the_last)
 

@@ -74,7 +74,7 @@ ALIKE = (
     {"other-taken", "min-for-max", "elsewhere", "another-line", "choice"},
 )
 #: The same of one and the same part: what is left out leaves the old value, or the sum without one of its terms.
-LEFT_OUT = ({"kept", "summand-left-out", "factor-left-out", "term-left-out"},)
+LEFT_OUT = frozenset(("kept", "summand-left-out", "term-left-out"))
 #: Slips of arithmetic that are told in the same words.
 SLIPS = frozenset(("numerator", "denominator", "one-off", "doubled", "halved"))
 #: How much less likely it is that somebody takes 1 − x for x where x is no share of 1.
