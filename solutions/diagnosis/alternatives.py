@@ -39,8 +39,8 @@ SURER = 1.0
 PLAIN = 6.0
 #: Edits that take something for 1 minus itself.
 _OF_SHARES = ("complement", "complement-of-value")
-#: Stands for an inverse that somebody works out wrongly.
-_INVERSE = letter("inverse_", "X", matrix=True)
+#: Stands for a matrix that somebody reads or works out wrongly.
+_LETTER = letter("matrix_", "X", matrix=True)
 
 
 def can_be_made(mistake: Misconception, given: Any) -> bool:
@@ -71,15 +71,19 @@ def at_one(application: Application, given: Any) -> Iterator[Cause]:
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
         if edit.kind in IN_ONE_TERM:
             pass
-        elif is_sensible(edit) and same_form(other := _outcome(edit.right, known), value):
+        elif (
+            is_sensible(edit)
+            and is_made_of_shares(edit, (application,))
+            and same_form(other := _outcome(edit.right, known), value)
+        ):
             if weights.IDEAS[edit.kind] >= PLAIN:
                 edited.add(hashable(other))
-            yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
+            yield replace(base, kind=edit.kind, weight=weight, edit=edit, became=other)
         if edit.once is not None:
             for term, at in single(edit, known)[:TERMS]:
                 other = value_or_none(edit.once, {**known, **at})
-                if same_form(other, value):
-                    in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
+                if same_form(other, value) and is_made_of_shares(edit, (application,), term):
+                    in_term = weight * weights.IN_ONE_TERM
                     yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
     for mistake, misread in formula.misread.items():
         if not can_be_made(mistake, given):
@@ -137,29 +141,47 @@ def _of_table(application: Application, base: Cause) -> Iterator[Cause]:
     if (other := value_or_none(application.right, again)) is not None:
         yield replace(base, kind="repeated", weight=weights.VALUES["repeated"], became=other)
     if application.first is not None and key in application.first:
-        for table in (application.first, {**application.first, key: known[code].get(key)}):
-            if table != known[code] and (other := value_or_none(application.right, {**known, code: table})) is not None:
+        first, now = application.first, known[code]
+        own = {**now, key: first[key]} if first[key] != 0 else now  # who takes 0 for a trace leaves it out
+        for table in (first, {**first, key: now.get(key)}, own):
+            if table != now and (other := value_or_none(application.right, {**known, code: table})) is not None:
                 yield replace(base, kind="stale", weight=weights.VALUES["stale"], became=other)
 
 
 def _other_matrices(application: Application, base: Cause) -> Iterator[Cause]:
-    """Another given matrix of the same shape in the place of one: R for Q."""
+    """Another given matrix of the same shape in the place of one, R for Q; or another line of the same table."""
     right, known = application.right, application.known
     for part in _of_matrices(right, sympy.Symbol, Quantity):
         name = part.code if isinstance(part, Quantity) else part.name
         was = value_or_none(part, known)
-        if not is_matrix(was):
-            continue
-        for taken, table in known.items():
-            if taken == name or type(table) is not type(known[name]):
-                continue
-            instead = {**known, name: table}
-            other, became = value_or_none(part, instead), value_or_none(right, instead)
-            if is_matrix(other) and other != was and same_form(other, was) and same_form(became, application.value):
-                weight = weights.INSIDE["elsewhere"]
-                yield replace(
-                    base, kind="elsewhere", weight=weight, probe=Probe(part, right), was=was, other=other, became=became
-                )
+        if is_matrix(was):
+            tables = {
+                taken: table for taken, table in known.items() if taken != name and type(table) is type(known[name])
+            }
+            others = [("elsewhere", value_or_none(part, {**known, name: table})) for table in tables.values()]
+        else:
+            others = [("another-line", other) for other in _beside(part, known)]
+        for kind, other in others:
+            if same_form(other, was) and other != was:
+                became = value_or_none(_with_letter(right, part), {**known, _LETTER.name: other})
+                if same_form(became, application.value):
+                    probe = Probe(part, right)
+                    yield replace(
+                        base, kind=kind, weight=weights.INSIDE[kind], probe=probe, was=was, other=other, became=became
+                    )
+
+
+def _beside(part: Expr, known: Mapping[str, Any]) -> list[Any]:
+    """The vectors in the lines of a table that differ in one name from the line of a quantity: of another action."""
+    table = known.get(part.code) if isinstance(part, Quantity) else None
+    if not isinstance(table, Mapping) or len(part.args) < 2:
+        return []
+    own = tuple(value_or_none(argument, known) for argument in part.args)
+    return [
+        value
+        for key, value in table.items()
+        if isinstance(value, Vector) and sum(one != two for one, two in zip(key, own, strict=True)) == 1
+    ]
 
 
 def _inverses(application: Application, base: Cause) -> Iterator[Cause]:
@@ -176,7 +198,7 @@ def _inverses(application: Application, base: Cause) -> Iterator[Cause]:
             ("inverse-diagonal", [[d, b], [c, a]]),
             ("inverse-undivided", [[each * determinant for each in row] for row in ((a, b), (c, d))]),
         ):
-            became = value_or_none(_with_inverse(right, part), {**known, _INVERSE.name: matrix(rows)})
+            became = value_or_none(_with_letter(right, part), {**known, _LETTER.name: matrix(rows)})
             if same_form(became, application.value):
                 probe = Probe(part.args[0], right)
                 yield replace(base, kind=kind, weight=weights.INSIDE[kind], probe=probe, was=was, became=became)
@@ -188,13 +210,13 @@ def _of_matrices(right: Expr, *kinds: type[Expr]) -> Sequence[Expr]:
     return sorted((each for each in right.atoms(*kinds) if each.is_commutative is False), key=str)
 
 
-def _with_inverse(right: Expr, part: Expr) -> Expr:
-    """A right side in which a letter stands for one inverse, its factors in their order."""
+def _with_letter(right: Expr, part: Expr) -> Expr:
+    """A right side in which a letter stands for one matrix, its factors in their order."""
     if right == part:
-        return _INVERSE
+        return _LETTER
     if not right.args or isinstance(right, Quantity):
         return right
-    arguments = [_with_inverse(argument, part) for argument in right.args]
+    arguments = [_with_letter(argument, part) for argument in right.args]
     return right.func(*arguments, **({} if isinstance(right, Node) else {"evaluate": False}))
 
 
@@ -328,29 +350,29 @@ def is_sensible(edit: Edit) -> bool:
     return edit.kind != "added" or edit.part.args[0] != -1
 
 
-def likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -> float:
-    """How likely an edit is for these values: 1 − x is taken for a share of 1."""
-    if edit.kind not in _OF_SHARES or len(term) != len(edit.within):
-        return 1.0
-    here = {over.index.name: item for over, item in zip(edit.within, term, strict=True)}
-    share = value_or_none(edit.part, {**known, **here})
-    if share is None:  # an unknown of equations
-        return 1.0
-    if letters := parameters(share):
-        is_share = share in [each for letter in letters for each in (generator(letter), 1 - generator(letter))]
-    else:
-        is_share = 0 < approximate(share) < 1
-    return 1.0 if is_share else weights.NO_SHARE
+def is_made_of_shares(edit: Edit, applications: Iterable[Application], term: tuple[Any, ...] | None = None) -> bool:
+    """Whether an edit that takes something for 1 minus itself does so with shares of 1, in all terms or in one alone.
 
-
-def likely_everywhere(edit: Edit, applications: Sequence[Application]) -> float:
-    """How likely an edit is for all values that it is made with."""
+    Shares are from 0 to 1, and not all of them 0 or 1: who follows one action always has nothing to take 1 minus of.
+    """
     if edit.kind not in _OF_SHARES:
-        return 1.0
-    return min(
-        (likely_there(edit, term, each.known) for each in applications for term, _ in terms(edit.within, each.known)),
-        default=1.0,
-    )
+        return True
+    names = [over.index.name for over in edit.within]
+    values = [
+        value_or_none(edit.part, {**each.known, **dict(zip(names, one, strict=True))})
+        for each in applications
+        for one in ((one for one, _ in terms(edit.within, each.known)) if term is None else (term,))
+    ]
+    return all(map(may_be_share, values)) and not all(value in (0, 1) for value in values)
+
+
+def may_be_share(value: Any) -> bool:
+    """Whether a value is from 0 to 1, or a letter that stands for a share, or 1 minus it."""
+    if value is None:
+        return False
+    if letters := parameters(value):
+        return value in [each for letter in letters for each in (generator(letter), 1 - generator(letter))]
+    return 0 <= approximate(value) <= 1
 
 
 def plain(value: Any) -> bool:

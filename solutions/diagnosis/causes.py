@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from msgspec import Struct
+from sympy import Expr
 
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.formula.edits import Edit, Probe
@@ -30,6 +31,8 @@ class Cause(Struct, frozen=True, eq=False):
         on_paper: whether it was done to the answer, behind the working.
         then: what was done besides.
         always: whether it was done wherever the quantity of the application is worked out, in every sweep.
+        time: the time at which it was done in every step by the formula of the application.
+        here: the part that it was done in alone, though the same was done rightly before; empty where it was not.
         anew: the part before whose right answer it does not go on from; empty where it denies none.
     """
 
@@ -49,7 +52,14 @@ class Cause(Struct, frozen=True, eq=False):
     on_paper: bool = False
     then: "Cause | None" = None
     always: bool = False
+    time: int | None = None
+    here: str = ""
     anew: str = ""
+
+    @property
+    def part(self) -> Expr | None:
+        """The part of a formula that was changed; None where it is all of a step, or the answer."""
+        return self.edit.part if self.edit is not None else self.probe.part if self.probe is not None else None
 
 
 #: The answers that a cause leads to, for somebody who goes on from these answers to earlier parts.

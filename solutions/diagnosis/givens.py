@@ -1,7 +1,7 @@
 """The givens misread: another problem that somebody solves who reads one thing wrongly."""
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, permutations
+from itertools import combinations, pairwise, permutations
 from typing import Any
 
 from msgspec import Struct
@@ -18,15 +18,14 @@ _FEW_ROWS = 3
 
 #: What the entries of a list are called, where the name of its field says that of none of them.
 _ENTRIES = {
-    "A": "rows of A",
-    "B": "rows of B",
-    "L": "rows of L",
-    "P": "rows of P",
+    **{name: f"rows of {name}" for name in ("A", "B", "L", "P", "Q", "R")},
+    "asked": "questions",
     "deviation": "entries of the deviation",
     "expert": "entries of the expert",
     "first": "first numbers",
     "gradient": "entries of the gradient",
     "mean": "entries of the mean",
+    "model": "rows of the model",
     "mu": "feature expectations",
     "planned": "planned pairs",
     "point": "coordinates of the point",
@@ -41,6 +40,20 @@ _ENTRIES = {
     "w": "weights",
 }
 
+#: What a number is called, where it is not by the name of its field.
+_CALLED = {
+    "alpha": "α",
+    "beta": "β",
+    "epsilon": "ε",
+    "gamma": "γ",
+    "lam": "λ",
+    "mean": "μ₀",
+    "noise": "σ²",
+    "theta": "θ",
+    "variance": "σ₀²",
+}
+#: What one number of a table is called, where it is not by the name of its field.
+_ONE_OF = {"logarithms": "logarithm of feature", "values": "value of"}
 #: Lists of names that are gone through one after the other, each with the table of its own.
 _IN_TURN = ("measurements", "actions")
 #: What is done to the order of a list is done all along: who had the right answer to a part before did not do it.
@@ -91,7 +104,9 @@ def _model(model: BaseModel) -> Changed:
     numbers = [name for name, value in fields.items() if _number(value)]
     for one, two in combinations(numbers, 2):
         if fields[one] != fields[two]:
-            yield from _again(model, {one: fields[two], two: fields[one]}, "givens-exchanged", f"{one} and {two}")
+            yield from _again(
+                model, {one: fields[two], two: fields[one]}, "givens-exchanged", f"{_called(one)} and {_called(two)}"
+            )
     if isinstance(model, Model) and (unpaid := _unpaid_at_the_end(model)) != model.transitions:
         yield from _again(model, {"transitions": unpaid}, "end-unpaid", "")
     for name, value in fields.items():
@@ -120,6 +135,10 @@ def _again(model: BaseModel, update: dict[str, Any], kind: str, what: str) -> Ch
             yield kind, type(model).model_construct(**{**every, **update}), what
 
 
+def _called(name: str) -> str:
+    return _CALLED.get(name, name.replace("_", " "))
+
+
 def _number(value: object) -> bool:
     return isinstance(value, Fraction | int) and not isinstance(value, bool)
 
@@ -142,9 +161,9 @@ def _of_number(value: Any, name: str) -> Changed:
         yield "one-too-many", value + 1, name
         yield "one-too-few", value - 1, name
     elif value < 0:
-        yield "minus-lost", -value, name
+        yield "minus-lost", -value, _called(name)
     if isinstance(value, Fraction) and 0 < value < 1:
-        yield "complement", 1 - value, name
+        yield "complement", 1 - value, _called(name)
 
 
 def _of_table(value: dict[Any, Any], name: str) -> Changed:
@@ -154,7 +173,7 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
     of_shares = all(_number(number) and 0 <= number <= 1 for number in value.values())
     for key in keys:
         if _number(value[key]) and value[key] < 0:
-            yield "minus-lost", {**value, key: -value[key]}, f"{name} {_named(key)}"
+            yield "minus-lost", {**value, key: -value[key]}, f"the {_ONE_OF.get(name, f'{name} of')} {_named(key)}"
         if of_shares and 0 < value[key] < 1:
             yield "complement", {**value, key: 1 - value[key]}, f"{name} of {_named(key)}"
     for one, two in list(combinations(keys, 2))[:_MOST]:
@@ -180,6 +199,20 @@ def _of_table(value: dict[Any, Any], name: str) -> Changed:
                 if tuple(row) != value[key]:
                     what = f"{name} of {_named(key)}, {ordinal(one)} and {ordinal(two)}"
                     yield "rows-exchanged", {**value, key: tuple(row)}, what
+    for here, there in pairwise(keys):
+        for one, two in ((here, there), (there, here)):
+            yield from _of_the_next_row(value, name, one, two)
+
+
+def _of_the_next_row(value: dict[Any, Any], name: str, own: Any, other: Any) -> Changed:
+    """One number of a row read in the row beside it."""
+    row, beside = value[own], value[other]
+    if not all(isinstance(each, tuple) and all(map(_number, each)) for each in (row, beside)):
+        return
+    for place, (number, instead) in enumerate(zip(row, beside, strict=False)):
+        if number != instead:
+            what = f"the {ordinal(place)} number of {_named(other)} is read for that of {_named(own)} in the {name}"
+            yield "another-cell", {**value, own: (*row[:place], instead, *row[place + 1 :])}, what
 
 
 def _of_list(value: tuple[Any, ...], name: str) -> Changed:
@@ -291,14 +324,15 @@ def _row(row: Any, name: str, place: int) -> Changed:
             return make(**{row._fields[column]: entry for column, entry in update.items()})
         return tuple(update.get(column, entry) for column, entry in enumerate(entries))
 
+    where = f"{ordinal(place)} {'of' if name.startswith('rows of ') else 'row of'} the {name}"
     numbers = [column for column, entry in enumerate(entries) if _number(entry)]
     for column in numbers:
         if entries[column] < 0:
-            yield "minus-lost", changed({column: -entries[column]}), f"the {ordinal(place)} row of {name}"
+            yield "minus-lost", changed({column: -entries[column]}), f"the {where}"
     for one, two in combinations(numbers, 2):
         if entries[one] != entries[two]:
             update = {one: entries[two], two: entries[one]}
-            yield "givens-exchanged", changed(update), f"{ordinal(place)} row of {name}"
+            yield "givens-exchanged", changed(update), where
 
 
 def _at(what: str, where: str) -> str:

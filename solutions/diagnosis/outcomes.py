@@ -11,7 +11,7 @@ from typing import Any
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from rldrill.problems.parts import Part
+from rldrill.problems.parts import Part, Policy
 from rldrill.solutions.answers.judging import wrong_cells
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.diagnosis import weights
@@ -182,7 +182,8 @@ class Outcomes:
             return
         alone = self.cells_of(self.search.alone(candidate))
         if alone is not None and alone != cells:
-            cause = replace(candidate.cause, weight=candidate.cause.weight * weights.HERE_ALONE)
+            weight = candidate.cause.weight * weights.HERE_ALONE
+            cause = replace(candidate.cause, weight=weight, here=self.part.label)
             self._keep(cause, alone, again=candidate.again)
 
     def _keep(
@@ -306,6 +307,16 @@ class Outcomes:
         cells = self.cells_of(again(settled))
         return cells is not None and all(equal(cells[name], right) for name, right in (outcome.cells or {}).items())
 
+    def made_here(self, outcome: Outcome, settled: Mapping[str, Any]) -> Outcome:
+        """An outcome; of an edit that gives wrong answers to parts before, which were right, one of this part alone."""
+        cause = outcome.cause
+        if not settled or cause.edit is None or cause.application is not None or cause.here or outcome.again is None:
+            return outcome
+        answers = outcome.again({}) or {}
+        if all(label in answers and equal(answers[label], right) for label, right in settled.items()):
+            return outcome
+        return replace(outcome, cause=replace(cause, here=self.part.label))
+
     def anew(self, outcome: Outcome, settled: Mapping[str, Any]) -> Outcome | None:
         """A formula misread by somebody who works the part out anew, and does not go on from a right answer before.
 
@@ -337,10 +348,18 @@ class Outcomes:
     def giving(self, typed: Typed) -> list[Outcome]:
         """The causes that give what was typed."""
         found = [outcome for outcome in self.single.near(typed) if self._gives(outcome, typed)]
+        found = [outcome for outcome in found if not self._decides_nothing(outcome)]
         for cause, cells in as_a_whole(typed):
             sizes = tuple(_size(cells[name]) for name in self.names)
             found.append(Outcome(cause, sizes, frozenset(self.names), None, cells))
         return found
+
+    def _decides_nothing(self, outcome: Outcome) -> bool:
+        """Whether it leaves every choice open that there is, which nobody takes for an answer."""
+        if not isinstance(self.part.kind, Policy) or outcome.cells is None:
+            return False
+        possible = self.part.kind.actions
+        return all(len(outcome.cells[state]) == len(actions) for state, actions in possible.items())
 
     def giving_in_turn(self, typed: Typed) -> list[Outcome]:
         """The pairs of slips in turn that do."""

@@ -7,13 +7,14 @@ from flint import fmpq
 from msgspec.structs import replace
 from sympy import Expr, Mul, preorder_traversal
 
-from rldrill.problems.mathematics import Math, name, number, relation, row
+from rldrill.problems.mathematics import Math, mathematics, name, number, relation, row
 from rldrill.solutions.diagnosis.alternatives import numbers, terms
 from rldrill.solutions.diagnosis.arithmetic import MOST_DIGITS
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.givens import ordinal
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.exact import decimal, is_rational
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, flat
 from rldrill.solutions.formula.letters import GLYPHS
 from rldrill.solutions.formula.nodes.leaves import put_in_name
@@ -120,17 +121,18 @@ _WHOLE = {
     "stale…": "every step goes on from what there was at the start, not from what the step before gave",
     "early": "new values are used at once, though they should wait for the next round",
     "round-left-out": "the {what} round of updates is left out",
-    "one-too-many": "it is one too many: {what}",
-    "one-too-few": "it is one too few: {what}",
+    "one-too-many": "{what} is taken one too large",
+    "one-too-few": "{what} is taken one too small",
     "counted-again": "the {what} is counted twice",
     "givens-exchanged": "two givens are exchanged: {what}",
     "rows-exchanged": "two entries are exchanged: {what}",
     "lines-exchanged": "two entries are exchanged: {what}",
     "another-row": "{what}",
+    "another-cell": "{what}",
     "led-elsewhere": "{what}",
     "rows-and-columns": "rows and columns are exchanged in {what}",
     "end-unpaid": "the rewards for reaching a terminal state are left out, whose value alone is 0",
-    "as-above": "the {what} is taken over from the one before",
+    "as-above": "the {what} {is} taken over from the one before",
     "minus-lost": "a minus is lost in reading {what}",
     "complement": "{what} is taken for 1 minus itself",
     "reversed": "the {what} are taken in the opposite order",
@@ -159,9 +161,24 @@ _WHOLE = {
     "": "there is a slip of arithmetic in the last step",
 }
 
+#: What is counted, by the name of its number.
+_COUNTED = {
+    "after": "step",
+    "branches": "branch",
+    "heads": "head",
+    "horizon": "step",
+    "rounds": "round",
+    "steps": "step",
+    "sweeps": "sweep",
+    "tails": "tail",
+}
+_ONE_OFF = {"one-too-many": "too many", "one-too-few": "too few"}
+
 
 def saying(cause: Cause, applications: Sequence[Application]) -> Words:
     """What was done, and where, without a full stop."""
+    if cause.kind == "other-side":
+        return _of_two_sides(cause, applications)
     words = (*_what(cause), *_where(cause, applications))
     if cause.then is not None:
         words = (*words, ", and ", *saying(cause.then, applications))
@@ -194,10 +211,34 @@ def _what(cause: Cause) -> Words:
         return _filled(template, was=write(was), became=write(became))
     if cause.application is not None:
         return _filled(_WHOLE[cause.kind + cause.what], left=typeset(cause.application.step.left))
+    if cause.kind == "earlier-time":
+        return (
+            "you gave what there is at ",
+            row(GLYPHS_T, relation("="), name(str(cause.time))),
+            ", one time too early",
+        )
+    first, _, rest = cause.what.partition(" ")
+    if cause.kind in _ONE_OFF and first in _COUNTED:
+        return (f"there is one {_COUNTED[first]} {_ONE_OFF[cause.kind]}{rest and ' in'}{rest.removeprefix('of')}",)
     template = _WHOLE.get(cause.kind + cause.what) or _WHOLE.get(cause.kind, _WHOLE[""])
     was = None if cause.was is None else _number(cause.was)
-    words = _filled(template, what=cause.what.replace("_", " "), was=was)
+    verb = "are" if first.endswith("s") else "is"
+    words = _filled(template, what=cause.what.replace("_", " "), was=was, **{"is": verb})
     return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words
+
+
+def _of_two_sides(cause: Cause, applications: Sequence[Application]) -> Words:
+    """11 fits the one of two quantities that were found, but not the other."""
+    own = cause.application
+    assert own is not None
+    other = next(each for each in applications if each.step.left == own.step.left and each.known != own.known)
+    codes = {each.formula.left.code for each in applications if isinstance(each.formula.left, Quantity)}
+    part = next(part for part in own.right.atoms(Quantity) if part.code in codes)
+    fits, fails = (
+        row(typeset(indexed(part, each.known)), relation("="), _number(value_of(part, each.known)))
+        for each in (own, other)
+    )
+    return ("you took ", _number(cause.became), ", which fits ", fits, ", but not ", fails)
 
 
 def _part(cause: Cause) -> Math:
@@ -290,8 +331,13 @@ def _where(cause: Cause, applications: Sequence[Application]) -> Words:
     term = _term(cause)
     if cause.application is None:
         assert cause.formula is not None
+        if cause.here:
+            return (*term, f" in ({cause.here})")
         updates = cause.formula.sign == "←"
         return (*term, " in every update" if updates else " every time")
+    if cause.time is not None:
+        steps = "update" if cause.application.formula.sign == "←" else "step"
+        return (*term, f" in every {steps} at ", row(GLYPHS_T, relation("="), name(str(cause.time))))
     if cause.always:
         return (*term, " every time in ", typeset(indexed(cause.application.formula.left, cause.application.known)))
     return (*term, *place(cause.application, applications))
@@ -317,6 +363,8 @@ def place(application: Application, applications: Sequence[Application]) -> Word
     lefts = [str(each.step.left) for each in alike]
     if lefts.count(str(application.step.left)) == 1:
         return (" in ", left)
+    if label := application.step.label:
+        return (" in ", left, " (", mathematics(label), ")")
     if at:
         return (" in ", left, " at ", *at)
     nth = [each for each in alike if str(each.step.left) == str(application.step.left)].index(application)

@@ -16,8 +16,8 @@ from rldrill.solutions.diagnosis.alternatives import (
     at_place,
     can_be_made,
     hashable,
+    is_made_of_shares,
     is_sensible,
-    likely_everywhere,
     likely_share,
     numbers,
     of_numbers,
@@ -52,6 +52,8 @@ from rldrill.solutions.solution import Solution
 _NUMBERS, _CHECKS = 9, 2
 #: So many causes of the same value are told apart.
 _ALIKE = 4
+#: What is forgotten in all steps of one time.
+_FORGOTTEN = ("factor-left-out", "term-left-out", "sign")
 #: So often equations are applied by somebody who does not solve them.
 _SWEEPS = 3
 TIMES = ("once", "twice", "three times")
@@ -112,6 +114,7 @@ class Search:
         yield from self._misread()
         yield from self._equations()
         yield from self._same_rows()
+        yield from self._same_times()
         yield from self._unknowns()
         yield from self._unsolved()
 
@@ -161,10 +164,11 @@ class Search:
             for chosen in [group] if len(group) == 1 else [group, *([one] for one in group)]:
                 right, edit = chosen[0]
                 places = [application for each, _ in chosen for application in uses[each]]
-                weight = weights.IDEAS[edit.kind] * likely_everywhere(edit, places)
+                if not is_made_of_shares(edit, places):
+                    continue
                 cause = Cause(
                     edit.kind,
-                    weight,
+                    weights.IDEAS[edit.kind],
                     places[0] if len(places) == 1 else None,
                     uses[right][0].formula,
                     edit,
@@ -184,6 +188,9 @@ class Search:
                 every = [[term for term, _ in terms(edit.within, place.known)] for place in places]
                 for nth in range(max(map(len, every))):
                     same = {each[nth] for each in every if len(each) > nth}
+                    there = [(place, each[nth]) for place, each in zip(places, every, strict=True) if len(each) > nth]
+                    if not any(is_made_of_shares(edit, (place,), one) for place, one in there):
+                        continue
                     term = next(iter(same)) if len(same) == 1 else ()
                     cause = Cause(edit.kind, weight, None, places[0].formula, edit, term=term, nth=nth)
                     yield from self._candidate(cause, Change({right: edit.once}, letters=_nth(edit.within, nth)))
@@ -232,7 +239,7 @@ class Search:
         return values if len(values) > len(reached) else None
 
     def _rounds(self) -> Iterator[Candidate]:
-        """The last or the first round of updates left out: every quantity keeps what it was."""
+        """The last or first round of updates left out, or all at the last time: every quantity keeps what it was."""
         seen: dict[Any, list[Application]] = defaultdict(list)
         for application in self.applications:
             if application.old() is not None:
@@ -244,8 +251,18 @@ class Search:
             left_out = [group[which] for group in seen.values() if len(group) > which]
             if len(left_out) > 1:
                 cause = Cause("round-left-out", weights.PROCEDURE["round-left-out"], what="last" if which else "first")
-                values = {application.number: application.old() for application in left_out}
-                yield from self._candidate(cause, Change(values=values))
+                yield from self._left_out(cause, left_out)
+        timed = [each for group in seen.values() for each in group if isinstance(each.known.get("t"), int)]
+        last = max((each.known["t"] for each in timed), default=0)
+        at_the_last = [each for each in timed if each.known["t"] == last]
+        tables = {id(each.known[each.formula.left.code]) for each in at_the_last}
+        if last and len(tables) < len(at_the_last):
+            cause = Cause("earlier-time", weights.PROCEDURE["earlier-time"], time=last - 1)
+            yield from self._left_out(cause, at_the_last)
+
+    def _left_out(self, cause: Cause, updates: Sequence[Application]) -> Iterator[Candidate]:
+        """Every quantity keeps what it was where these updates are not made."""
+        yield from self._candidate(cause, Change(values={each.number: each.old() for each in updates}))
 
     def _misread(self) -> Iterator[Candidate]:
         every = misread(self.problem.given)
@@ -283,6 +300,25 @@ class Search:
                             replace(cause, always=True), Change({every[0].right: right}, letters=letters)
                         )
 
+    def _same_times(self) -> Iterator[Candidate]:
+        """Something forgotten in all steps of one time, where there are several, and other times."""
+        times: dict[Expr, dict[int, list[Application]]] = defaultdict(lambda: defaultdict(list))
+        for application in self.applications:
+            if isinstance(time := application.known.get("t"), int) and not application.equation:
+                times[application.right][time].append(application)
+        then = Indicator(sympy.Symbol("t"), sympy.Symbol("case_t"))
+        for right, every in times.items():
+            if len(every) < 2 or not any(len(same) > 1 for same in every.values()):
+                continue
+            forgotten = [edit for edit in edits(right) if edit.kind in _FORGOTTEN]
+            for time, same in every.items():
+                for edit in forgotten if len(same) > 1 else ():
+                    weight = weights.IDEAS[edit.kind] * weights.AT_ONE
+                    cause = Cause(edit.kind, weight, same[0], same[0].formula, edit, always=True, time=time)
+                    yield from self._candidate(
+                        cause, Change({right: Cases(then, edit.right, right)}, letters={"case_t": time})
+                    )
+
     def _unknowns(self) -> Iterator[Candidate]:
         """Slips in solving equations with one unknown."""
         for number, equation in enumerate(self.work.equated):
@@ -306,12 +342,13 @@ class Search:
         for edit in edits(right):
             weight = weights.IDEAS[edit.kind] * weights.AT_ONE
             cause = Cause(edit.kind, weight, application, application.formula, edit)
-            if edit.kind not in IN_ONE_TERM:
+            if edit.kind not in IN_ONE_TERM and is_made_of_shares(edit, (application,)):
                 yield cause, Cases(here, edit.right, right), case
             if edit.once is not None:
                 once = Cases(here, edit.once, right)
                 for term, at in single(edit, application.known):
-                    yield replace(cause, weight=weight * weights.IN_ONE_TERM, term=term), once, {**case, **at}
+                    if is_made_of_shares(edit, (application,), term):
+                        yield replace(cause, weight=weight * weights.IN_ONE_TERM, term=term), once, {**case, **at}
         for probe in probes(right):
             changed = Cases(here, probe.right, right)
             for cause, letters_ in at_place(application, probe):
@@ -338,7 +375,8 @@ class Search:
         found: dict[Any, list[Cause]] = defaultdict(list)
         for cause in sorted(every, key=lambda cause: -cause.weight):
             alike = found[hashable(cause.became)]
-            if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
+            same = (other for other in alike[1:] if other.kind == cause.kind)
+            if len(alike) < _ALIKE and not any(other.part == cause.part for other in same):
                 alike.append(cause)
             yield
         found.pop(hashable(application.value), None)

@@ -56,22 +56,25 @@ IDEAS = {
     "mean-for-product": 0.3,
     "sum-for-product": 2.0,
 }
-#: Causes that say the same, if they are made at the same place.
+#: Causes that say the same, if they are made at the same place, in parts of which one is in the other.
 ALIKE = (
     {"sign", "summand-sign", "difference", "all-signs", "minus-lost"},
     {"squared", "squared-value", "power"},
     {"numerator", "one-off"},
     {"denominator", "one-off"},
     {"inverse", "upside-down", "divided"},
-    {"kept", "summand-left-out", "factor-left-out", "term-left-out"},
+    {"factor-left-out", "bracket-left-out", "only-factor-left-out"},
     {"halved", "doubled"},
     {"exchanged-cells", "rows-exchanged"},
+    {"exchanged", "givens-exchanged"},
     {"another-quantity", "another-part"},
     {"answer-rearranged", "answer-reversed", "answer-transposed"},
     {"reversed", "entries-exchanged"},
     {"twin", "other-table", "elsewhere", "another-line", "index"},
     {"other-taken", "min-for-max", "elsewhere", "another-line", "choice"},
 )
+#: The same of one and the same part: what is left out leaves the old value, or the sum without one of its terms.
+LEFT_OUT = frozenset(("kept", "summand-left-out", "term-left-out"))
 #: Slips of arithmetic that are told in the same words.
 SLIPS = frozenset(("numerator", "denominator", "one-off", "doubled", "halved"))
 #: How much less likely it is that somebody takes 1 − x for x where x is no share of 1.
@@ -118,6 +121,8 @@ PROCEDURE = {
     "rows-exchanged": 1.0,
     "lines-exchanged": 1.5,
     "another-row": 2.0,
+    "another-cell": 1.4,
+    "earlier-time": 9.0,
     "led-elsewhere": 1.5,
     "rows-and-columns": 9.0,
     "as-above": 1.0,
@@ -143,6 +148,7 @@ ANSWERS = {
     "another-quantity": 3.0,
     "another-part": 4.0,
     "as-given": 2.0,
+    "other-side": 20.0,
     "exchanged-cells": 4.0,
     "all-signs": 9.0,
     "sign": 9.0,

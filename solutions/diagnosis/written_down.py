@@ -11,11 +11,11 @@ from sympy import Expr, sqrt
 from rldrill.problems.parts import Matrix, Number, Numbers, Part
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
-from rldrill.solutions.diagnosis.alternatives import hashable, likely_share, plain
+from rldrill.solutions.diagnosis.alternatives import hashable, likely_share, may_be_share, plain
 from rldrill.solutions.diagnosis.arithmetic import beside_the_diagonal, slips
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import Application
-from rldrill.solutions.diagnosis.typed import Typed, approximate
+from rldrill.solutions.diagnosis.typed import Typed, approximate, equal
 from rldrill.solutions.exact import is_rational, simplest, to_sympy
 from rldrill.solutions.formula.edits import Probe
 from rldrill.solutions.formula.formula import Formula
@@ -50,15 +50,15 @@ def written_down(
             yield _cause("standard-deviation"), {**key, name: simplest(sqrt(to_sympy(value)))}
     if len(key) == 1:
         ((name, value),) = key.items()
-        share = is_rational(value) and 0 < value < 1
-        likely = 1.0 if share else weights.NO_SHARE
-        yield _cause("one-minus", likely=weights.OF_TWO if of_two else likely), {name: 1 - value}
+        if of_two or (may_be_share(value) and value not in (0, 1)):
+            yield _cause("one-minus", likely=weights.OF_TWO if of_two else 1.0), {name: 1 - value}
         yield _cause("percent"), {name: value * 100}
         asked = _asked(key, applications)
         for application in applications:
             if plain(application.value) and application.step.left not in asked:
                 weight = weights.ANSWERS["another-quantity"]
                 yield Cause("another-quantity", weight, application, on_paper=True), {name: application.value}
+        yield from _other_sides(name, value, applications)
     shape = part.kind
     if isinstance(shape, Matrix) and shape.rows == shape.columns > 1:
         places = range(1, shape.rows + 1)
@@ -70,6 +70,19 @@ def written_down(
         for row, column in beside_the_diagonal([[key[name] for name in line] for line in names]):
             one, two = names[row][column], names[column][row]
             yield _cause("sign", f"{one} and {two}"), {**key, one: -key[one], two: -key[two]}
+
+
+def _other_sides(name: str, value: Any, applications: Sequence[Application]) -> WrittenDown:
+    """The other one of two numbers that one given leaves open, where another given denies it."""
+    rightly = [each for each in applications if plain(each.value) and equal(each.value, value)]
+    for application in applications:
+        formula = application.formula
+        beside = [each.formula for each in rightly if each.known == application.known]
+        if any(each.key == formula.key and each is not formula for each in beside) and application.value != value:
+            cause = Cause(
+                "other-side", weights.ANSWERS["other-side"], application, became=application.value, on_paper=True
+            )
+            yield cause, {name: application.value}
 
 
 def _other_quantities(key: Mapping[str, Any], applications: Sequence[Application]) -> WrittenDown:

@@ -415,8 +415,9 @@ def _of_quantity(part: Quantity) -> Iterator[Change]:
                 yield "index", other, part, other
         if argument.is_Symbol and argument.name in TWINS:
             twin = sympy.Symbol(TWINS[argument.name])
-            other = _with_argument(part, place, twin)
-            yield "twin", other, part, other
+            if twin not in part.args:  # nobody reads P for going from a state to itself
+                other = _with_argument(part, place, twin)
+                yield "twin", other, part, other
         if isinstance(argument, Quantity):
             for kind, inner, _, _ in _of_quantity(argument):
                 other = _with_argument(part, place, inner)
@@ -429,8 +430,9 @@ def _with_argument(part: Quantity, place: int, argument: Expr) -> Expr:
 
 def _counted(index: Expr, step: int) -> Expr:
     """An index one further or one back, its letters in their order: t + 2, n − 1."""
-    letters = [term for term in Add.make_args(index) if not term.is_Number]
-    number = sum(term for term in Add.make_args(index) if term.is_Number) + step
+    terms = [inner for term in Add.make_args(index) for inner in Add.make_args(term)]
+    letters = [term for term in terms if not term.is_Number]
+    number = sum(term for term in terms if term.is_Number) + step
     return _sum([*letters, sympy.Integer(number)] if number else letters)
 
 

@@ -169,7 +169,7 @@ with evaluate(False):
         "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
     )
     MEASURED_TWICE = Misconception(
-        "measured-twice", "Every measurement counts once: those before are in the belief already."
+        "measured-twice", "Every measurement counts once: its likelihood is one factor, not two."
     )
     OTHER_MEASUREMENT = Misconception(
         "other-measurement",

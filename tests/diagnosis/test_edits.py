@@ -137,6 +137,18 @@ def test_a_place_of_a_formula_takes_another_value() -> None:
     assert value_of(place.right, {**known, SCALE.name: exact(0), SHIFT.name: exact(2)}) == 7
 
 
+def test_an_index_is_counted_with_all_its_numbers() -> None:
+    instead = {unicode(typeset(edit.instead)) for edit in edits(N_STEP_RETURN.right) if edit.kind == "index"}
+    assert {"rₜ₊ᵢ", "rₜ₊ᵢ₊₂"} <= instead
+
+
+@pytest.mark.parametrize("formula", formulas().values(), ids=lambda formula: formula.key)
+def test_nothing_leads_from_a_state_to_itself(formula) -> None:
+    for edit in edits(formula.right):
+        if edit.kind == "twin" and edit.instead is not None:
+            assert len(set(edit.instead.args)) == len(edit.instead.args)
+
+
 @pytest.mark.parametrize("formula", formulas().values(), ids=lambda formula: formula.key)
 def test_every_edit_of_every_formula_is_another_formula(formula) -> None:
     for edit in edits(formula.right):

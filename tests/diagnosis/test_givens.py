@@ -88,7 +88,7 @@ READ_WRONGLY = [
     ("one-too-many", "steps", {"steps": 2}),
     ("complement", "share", {"share": "3/4"}),
     ("minus-lost", "drift", {"drift": 2}),
-    ("minus-lost", "table b", {"table": {"a": 3, "b": 1}}),
+    ("minus-lost", "the table of b", {"table": {"a": 3, "b": 1}}),
     ("rows-exchanged", "table of a and b", {"table": {"a": -1, "b": 3}}),
     ("reversed", "rewards", {"rewards": (-4, -4, 5)}),
     ("entry-left-out", "first of the rewards", {"rewards": (-4, -4)}),
@@ -99,17 +99,17 @@ READ_WRONGLY = [
     ("minus-lost", "the third of the rewards", {"rewards": (5, -4, 4)}),
     ("reversed", "rows", {"rows": (("y", 1, 2), ("x", "1/2", -3))}),
     ("entry-left-out", "first of the rows", {"rows": (("y", 1, 2),)}),
-    ("minus-lost", "the first row of rows", {"rows": (("x", "1/2", 3), ("y", 1, 2))}),
-    ("givens-exchanged", "first row of rows", {"rows": (("x", -3, "1/2"), ("y", 1, 2))}),
+    ("minus-lost", "the first row of the rows", {"rows": (("x", "1/2", 3), ("y", 1, 2))}),
+    ("givens-exchanged", "first row of the rows", {"rows": (("x", -3, "1/2"), ("y", 1, 2))}),
     ("entry-left-out", "second of the rows", {"rows": (("x", "1/2", -3),)}),
-    ("givens-exchanged", "second row of rows", {"rows": (("x", "1/2", -3), ("y", 2, 1))}),
+    ("givens-exchanged", "second row of the rows", {"rows": (("x", "1/2", -3), ("y", 2, 1))}),
     ("rows-and-columns", "matrix", {"matrix": ((1, 3), (2, -4))}),
     ("reversed", "matrix", {"matrix": ((3, -4), (1, 2))}),
     ("entry-left-out", "first of the matrix", {"matrix": ((3, -4),)}),
-    ("givens-exchanged", "first row of matrix", {"matrix": ((2, 1), (3, -4))}),
+    ("givens-exchanged", "first row of the matrix", {"matrix": ((2, 1), (3, -4))}),
     ("entry-left-out", "second of the matrix", {"matrix": ((1, 2),)}),
-    ("minus-lost", "the second row of matrix", {"matrix": ((1, 2), (3, 4))}),
-    ("givens-exchanged", "second row of matrix", {"matrix": ((1, 2), (-4, 3))}),
+    ("minus-lost", "the second row of the matrix", {"matrix": ((1, 2), (3, 4))}),
+    ("givens-exchanged", "second row of the matrix", {"matrix": ((1, 2), (-4, 3))}),
     ("one-too-many", "count of u", {"inner": {"u": {"count": 8}}}),
     ("one-too-few", "count of u", {"inner": {"u": {"count": 6}}}),
 ]
@@ -131,6 +131,24 @@ def test_equal_numbers_are_not_exchanged_and_a_share_is_between_0_and_1() -> Non
         ("one-too-many", "count of u"),
         ("one-too-few", "count of u"),
     ]
+
+
+class Features(Exactly):
+    """A few numbers for every state."""
+
+    features: dict[str, tuple[Exact, ...]]
+
+
+def test_a_number_is_read_in_the_row_beside_its_own() -> None:
+    given = Features(features={"bay": (1, 2), "reef": (1, 5), "cape": (7, 5)})
+    found = {each.what: each.given.features for each in misread(given) if each.kind == "another-cell"}
+    read = "is read for that of {} in the features"
+    assert found == {
+        f"the second number of reef {read.format('bay')}": {"bay": (1, 5), "reef": (1, 5), "cape": (7, 5)},
+        f"the second number of bay {read.format('reef')}": {"bay": (1, 2), "reef": (1, 2), "cape": (7, 5)},
+        f"the first number of cape {read.format('reef')}": {"bay": (1, 2), "reef": (7, 5), "cape": (7, 5)},
+        f"the first number of reef {read.format('cape')}": {"bay": (1, 2), "reef": (1, 5), "cape": (1, 5)},
+    }
 
 
 class Pages(Exactly):
