@@ -170,15 +170,15 @@ FOUND = {
         "prior": {"h": "q", "k": "1-q"},
         "likelihood": {"z": {"h": "1/2", "k": "1/4"}, "w": {"h": "1/4", "k": "3/4"}},
         "measurements": ["z", "w"],
-        "outcome": {"state": "h", "probability": "2/3"},
+        "outcome": {"state": "h", "probability": "4/5"},
     },
 }
 
 
 def test_what_was_there_at_the_start_has_the_number_that_was_found() -> None:
     exercise = rldrill.read(FOUND)
-    assert exercise.answers() == {"a": Fraction(1, 2), "b": {"h": Fraction(2, 5), "k": Fraction(3, 5)}}
-    assert exercise.diagnose("1/4, 3/4", "b", {"a": "1/2"}).kind == "stale"
+    assert exercise.answers() == {"a": Fraction(2, 3), "b": {"h": Fraction(4, 7), "k": Fraction(3, 7)}}
+    assert exercise.diagnose("2/5, 3/5", "b", {"a": "2/3"}).kind == "stale"
 
 
 @pytest.mark.parametrize(
