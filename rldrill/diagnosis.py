@@ -301,7 +301,7 @@ class Diagnosing:
             return Diagnosis("unexplained", verdict.says)
         if verdict.accepted:
             return Diagnosis("right", verdict.says, confidence=1.0)
-        if verdict.told:
+        if verdict.told and not earlier:
             return _listed(self.solution, verdict)
         if verdict.outcome is Outcome.CLOSE and self._nearly_rounded(label, text):
             return Diagnosis("unexplained", verdict.says)
@@ -314,10 +314,10 @@ class Diagnosing:
         for carried in gone_on:
             with self._one:
                 found = explained(self.outcomes(label, carried), typed, clock, settled, None if carried else earlier)
-            if found.causes:
+            if found.made_before or (found.causes and not verdict.told):
                 applications = self.search(carried).applications
                 return self.solution.problem.written(partial(_told, found, applications))
-        return Diagnosis("unexplained", verdict.says)
+        return _listed(self.solution, verdict) if verdict.told else Diagnosis("unexplained", verdict.says)
 
 
 def _can_be_typed(cells: Mapping[str, Any] | None, allowed: Set[str]) -> bool:

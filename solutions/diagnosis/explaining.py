@@ -53,10 +53,14 @@ _TWO_LINES = 2
 
 
 class Explained(Struct, frozen=True):
-    """The causes that an answer is put down to, the likeliest first, and how likely each of them is, 0 to 1."""
+    """The causes that an answer is put down to, the likeliest first, and how likely each of them is, 0 to 1.
+
+    ``made_before``: they give the wrong answers to the parts before, too.
+    """
 
     causes: tuple[Cause, ...] = ()
     shares: tuple[float, ...] = ()
+    made_before: bool = False
 
     @property
     def confidence(self) -> float:
@@ -93,7 +97,9 @@ def explained(
     beside = _beside_others(groups, causes, shares)
     told = likeliest(beside, _led(groups, causes, beside), next(group for group in groups if first[1] in group))
     told.sort(key=lambda each: -_said_so(each[1], groups, causes, beside))
-    return Explained(tuple(causes[number] for _, number in told), tuple(share for share, _ in told))
+    return Explained(
+        tuple(causes[number] for _, number in told), tuple(share for share, _ in told), made_before=bool(again)
+    )
 
 
 def _are_enough(

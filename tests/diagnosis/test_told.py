@@ -98,7 +98,9 @@ def test_a_factor_left_out_everywhere_is_told_of_a_small_number() -> None:
 
 def test_what_is_likelier_is_not_told_as_something_else() -> None:
     # Without γ, R₀ = −2 + 8 = 6 and R₀^λ = (1 − λ) + 6λ.
-    assert said("td-lambda-forward", FORWARD, "1 + 5λ, 8").startswith("Later rewards are discounted by powers of γ.")
+    assert said("td-lambda-forward", FORWARD, "1 + 5λ, 8").startswith(
+        "It looks as if the factor γⁱ is missing every time"
+    )
 
 
 def test_the_likeliest_is_told_beside_lines_of_tables() -> None:
