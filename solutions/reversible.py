@@ -7,7 +7,7 @@ from rldrill.problems.exact import Parameter, Scalar, needed, shown
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
-from rldrill.solutions.exact import ONE, NoSolution, Value, exact, parameters, to_sympy, told, value_at
+from rldrill.solutions.exact import ONE, NoSolution, Value, equals, exact, parameters, to_sympy, value_at
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.found import found_line
@@ -33,10 +33,8 @@ def find(given: Reversible, work: Work, value: Value, named: str) -> Value:
     if not given.letters:
         raise NoSolution("what is known says nothing of the letter that is asked for; change what is left open")
     if given.letter not in parameters(value):
-        plain = named.replace('"', "")
-        raise NoSolution(
-            f"{plain} = {told(value)}, whatever {given.letter} is; it is this that is known, so change that"
-        )
+        what = f"{named} {equals(value)}".replace('"', "")
+        raise NoSolution(f"{what}, whatever {given.letter} is, and this is what is known; change what is given")
     work.say(f"${named}$ must be ${shown(needed(given.known))}$:")
     return work.answer(work.equate(given.letter, value, exact(needed(given.known))))
 

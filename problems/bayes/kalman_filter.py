@@ -84,8 +84,6 @@ class Given(AskedFor):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         n, inputs, readings = len(self.mean), len(self.B[0]), len(self.C)
-        if n > 1 and self.driven and "B" not in self.model_fields_set:
-            raise ValueError("B, by which the commands u move the state, is missing; add it")
         if len(self.steps) > (most := max(5, _EFFORT // n**2)):
             raise ValueError(
                 f"steps has {len(self.steps)} entries; with {n} component{'s' * (n != 1)} of the state, {most} are the "
@@ -96,6 +94,8 @@ class Given(AskedFor):
             ("C", self.C, readings, n), ("process", self.process, n, n), ("sensor", self.sensor, readings, readings),
             *((("B", self.B, n, inputs),) if self.driven else ()),
         ):  # fmt: skip
+            if name == "B" and n > 1 and "B" not in self.model_fields_set:
+                raise ValueError("B, by which the commands u move the state, is missing; add it")
             check_shape(
                 name, matrix, rows, columns, f"with a mean of {n} and {readings} reading{'s' * (readings > 1)} "
             )

@@ -94,11 +94,11 @@ with evaluate(False):
     )
     #: The same where a run is cut off, and the longest n-step return takes the place of the full one.
     FORGOT_LONGEST = Misconception(
-        FORGOT_CLOSING.name,
+        "longest-return-left-out",
         "The sum does not stop before the end: the longest n-step return has the weight λᵀ⁻ᵗ⁻¹.",
     )
     LONGEST_LIKE_OTHERS = Misconception(
-        CLOSING_LIKE_OTHERS.name,
+        "longest-weight-forgotten",
         "The longest n-step return gets all the weight that is left: its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
     )
     POWER_ONE_LATE = Misconception(

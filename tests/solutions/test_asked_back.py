@@ -69,7 +69,7 @@ REFUSED = [
     ("optimal-policy-from-v", WAIT | {"values": {"A": 5}}, "the optimal value of 'A' is 2/3, not 5; correct it"),
     ("sample-average", {"values": {"A": 1}, "alpha": "alpha", "visits": [["A", 3], ["A", "x"]]}, "are left open"),
     ("td-zero", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 0, "b": "x"}, "alpha": 1,
-                 "gamma": 0, "known": 1}, "x falls out of the equation"),
+                 "gamma": 0, "known": 1}, "V(a) = 1, whatever x is, and this is what is known; change"),
     ("optimal-policy-from-q", {"values": {"s": {"a": 1}}, "gamma": "1/2", "terminal": ["end"],
                                "missing": {"transitions": [["s", "b", "end", 1, "1-x"]]}}, "'1-x' is one minus"),
     ("policy-iteration", {"mdp": {"transitions": [["s", "a", "end", 1, 1], ["s", "b", "end", 1, "1-x"]],

@@ -115,7 +115,7 @@ FILTER: dict[str, Any] = {"belief": PREDICT["belief"], "motion": MOTION, "run": 
     ("name", "given_", "fragment"),
     [
         ("bayes-predict", PREDICT | {"belief": {"open": 1, "closed": "1/2"}}, "belief: the probabilities sum to 3/2"),
-        ("bayes-predict", PREDICT | {"actions": ["pull"]}, "an action is given for 'pull'"),
+        ("bayes-predict", PREDICT | {"actions": ["pull"]}, "an action is 'pull', of which motion says nothing"),
         ("bayes-predict", PREDICT | {"motion": {"push": {"open": {"open": 1}}}}, "'push' of 'closed' is missing"),
         (
             "bayes-predict",
@@ -128,7 +128,7 @@ FILTER: dict[str, Any] = {"belief": PREDICT["belief"], "motion": MOTION, "run": 
             "motion of 'push' in 'open': the probabilities sum to 1/2 and what is left open",
         ),
         ("bayes-filter", FILTER | {"run": [{}]}, "neither an action nor a measurement"),
-        ("bayes-filter", FILTER | {"run": [{"measurement": "light"}]}, "a measurement is given for 'light'"),
+        ("bayes-filter", FILTER | {"run": [{"measurement": "light"}]}, "is 'light', of which likelihood says nothing"),
         ("bayes-filter", FILTER | {"likelihood": {"light": {"open": 1}}}, "'light' of 'closed' is missing"),
     ],
 )  # fmt: skip
