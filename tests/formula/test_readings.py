@@ -107,7 +107,7 @@ READINGS = {key: formula.right for key, formula in formulas().items()} | {
 
 @pytest.mark.parametrize("name", READINGS)
 @given(data=st.data())
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=5, deadline=None)
 def test_the_compiled_value_is_the_value_of_the_step(name: str, data: st.DataObject) -> None:
     expression = READINGS[name]
     values = known(data, expression)

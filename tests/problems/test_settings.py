@@ -69,7 +69,7 @@ def _places(state: str) -> Iterator[tuple[str, ...]]:
 @pytest.mark.parametrize("name", FAMILIES)
 def test_what_is_drawn_keeps_to_what_the_words_of_its_world_say(name: str) -> None:
     for level in (1, 2, 3):
-        for seed in range(4):
+        for seed in range(2):
             rows: dict[tuple[str, str], list[tuple[str, object]]] = defaultdict(list)
             for state, action, after, chance in _leads(draw(name, level, seed).data()["given"]):
                 rows[state, action].append((after, chance))
