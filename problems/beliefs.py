@@ -52,13 +52,21 @@ def _by_action(motion: Motion) -> Motion:
 
 
 def _has_actions(value: Any) -> Any:
-    """Refuse a table of states where one of actions is needed: in its rows stand states, and their probabilities."""
+    """Refuse a table of states where one of actions is needed: in its rows stand states, and their probabilities.
+
+    A number that is a name there may be the next state of an action.
+    """
     rows = value if isinstance(value, dict) else {}
-    if rows and all(
-        isinstance(row, dict) and row and {*row} <= {*rows} and all(map(is_scalar, row.values()))
-        for row in rows.values()
+    names = {str(name) for name in rows}
+    within = [row if isinstance(row, dict) else {} for row in rows.values()]
+    chances = [chance for row in within for chance in row.values()]
+    if (
+        all(row and {str(state) for state in row} <= names for row in within)
+        and all(map(is_scalar, chances))
+        and any(str(chance) not in names for chance in chances)
     ):
-        raise ValueError(f"holds states alone; put the name of the action before them, as {{go = {{{min(rows)} = …}}}}")
+        first = next(iter(rows))
+        raise ValueError(f"holds states alone; put the name of the action before them, as {{go = {{{first} = …}}}}")
     return value
 
 

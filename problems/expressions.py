@@ -99,6 +99,11 @@ def letters(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(letter(node.text) for node in nodes(parsed(text)) if isinstance(node, Name)))
 
 
+def has_powers(text: str) -> bool:
+    """Whether a power stands in an expression."""
+    return any(isinstance(node, Operation) and node.sign == "^" for node in nodes(parsed(text)))
+
+
 @lru_cache(maxsize=1024)
 def turning(text: str) -> tuple[str, ...]:
     """The letters that are angles: those of which sines and cosines are taken as they stand, or in sums."""

@@ -22,7 +22,7 @@ ALSO = {
 _PARTED = re.compile(r"[\s,;]")
 #: Brackets around the whole of such a text, and what stands between its numbers for certain.
 _AROUND = re.compile(r"^\[([^\[\]]*)\]$")
-_BETWEEN, _WHOLE = re.compile(r"\s*;\s*|\s*,\s+"), re.compile(r"\s*[+-]?\d+\s*")
+_BETWEEN, _WHOLE = re.compile(r"\s*;\s*|\s*,\s+"), re.compile(r"\s*[+-]?[0-9]{1,9}\s*")
 #: What a schema only says, or gives as values.
 _SAID = ("title", "description", "default", "examples", "enum", "const")
 #: The fields of a run, which may be written in the order of time.
@@ -148,7 +148,7 @@ def _listed(value: Any, entries: Sequence[Schema]) -> Any:
     kinds = {_kind(entry) for entry in entries}
     if not isinstance(value, str) or len(kinds) != 1 or "" in kinds:
         return value
-    bare = _AROUND.sub(r"\1", value.strip())
+    bare = _AROUND.sub(r"\1", " ".join(value.split()))
     if kinds == {"name"} and not re.search(r"[,;]", bare):  # one name of two words, or two names
         return value
     if kinds == {"name"}:

@@ -20,10 +20,8 @@ _WRITTEN = re.compile(
 _PLAIN = {"&": ",", "\\\\": ";"}
 _MADE = re.compile(r"\s*(?:(?:np|numpy|jnp)\.)?(?:eye|diag|identity|zeros|ones)\s*\(|\s*I(?:_?\d)?\s*$")
 _ROW = re.compile(r"\[([^\[\]]+)\]")
-#: A number before or behind a matrix: 1/2 [1 1; 0 1], −[1 0; 0 1], [2 0; 0 2]/3.
-_SCALED = re.compile(
-    r"(?s)\s*([^\[\]\\]*?)\s*[*·×⋅]?\s*((?:(?:np|numpy|jnp)\.)?(?:array|matrix)\()?(\[.*\])\)?\s*(?:([*·×⋅/])\s*([^\[\]]+?))?\s*"
-)
+#: What stands around a matrix of numpy, and the signs that may stand between a matrix and a number.
+_CALLED, _TIMES = re.compile(r"(?:(?:np|numpy|jnp)\.)?(?:array|matrix)\($"), "*·×⋅"
 
 
 def _typed_rows(text: str) -> list[list[str]] | None:
@@ -43,13 +41,18 @@ def _read_rows(text: str) -> Any:
     """
     if _MADE.match(text):
         raise ValueError(f"{text[:40]!r} is not worked out here; write its rows, as [[1, 2], [3, 4]] or '[1 2; 3 4]'")
-    rows = _typed_rows(text)
-    scaled = _SCALED.fullmatch(text)
-    if scaled is None or not (scaled[1] or scaled[5]):
-        return rows or text
-    before = scaled[1] if scaled[1] in ("", "-", "−", "+") else f"({scaled[1]})*"
-    behind = f"{scaled[4]}({scaled[5]})" if scaled[5] else ""
-    return [[f"{before}({entry}){behind}" for entry in row] for row in _typed_rows(scaled[3]) or ()]
+    begin, end = text.find("["), text.rfind("]")
+    if begin < 0 or end < begin or "\\" in text:
+        return _typed_rows(text) or text
+    before, behind = text[:begin].strip(), text[end + 1 :].strip()
+    if called := _CALLED.search(before):
+        before, behind = before[: called.start()].strip(), behind.removeprefix(")").lstrip()
+    if not (before or behind) or (behind and behind[0] not in f"{_TIMES}/"):
+        return _typed_rows(text) or text
+    before = before.rstrip(_TIMES).rstrip()
+    times = before if before in ("", "-", "−", "+") else f"({before})*"
+    over = f"{behind[0]}({behind[1:].strip()})" if behind else ""
+    return [[f"{times}({entry}){over}" for entry in row] for row in _typed_rows(text[begin : end + 1]) or ()]
 
 
 def _rows(value: Any) -> Any:

@@ -18,7 +18,16 @@ from rldrill.problems.document import Beside, Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, read_fraction
 from rldrill.problems.exact import shown as exact_shown
-from rldrill.problems.expressions import Expression, letter, letters, turning, worked_out, written, written_letter
+from rldrill.problems.expressions import (
+    Expression,
+    has_powers,
+    letter,
+    letters,
+    turning,
+    worked_out,
+    written,
+    written_letter,
+)
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction, fraction_of
 from rldrill.problems.mathematics import Math, mathematics, row, variable
@@ -50,9 +59,9 @@ _SEEN: dict[Look, tuple[str, ...]] = {
 
 
 def _in_numbers(value: Any, constants: Mapping[str, Any]) -> Any:
-    """What an expression in constants is worth; anything else as it is."""
+    """What an expression in constants is worth; anything else as it is, and powers, whose numbers have no bound."""
     try:
-        if not isinstance(value, str) or not letters(value):
+        if not isinstance(value, str) or not letters(value) or has_powers(value):
             return value
         numbers = {letter(name): read_fraction(number) for name, number in constants.items()}
         return str(worked_out(value, numbers, {}, lambda number: number)) if {*letters(value)} <= {*numbers} else value

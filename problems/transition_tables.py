@@ -25,7 +25,7 @@ _TRUE, _FALSE = ("1", "true", "yes", "1.0"), ("", "0", "false", "no", "0.0")
 #: A decimal comma; 1,000 may be a thousand, and is left to be refused.
 _COMMA = re.compile(r"[+−-]?(?![1-9]\d{0,2},\d{3}(?!\d))\d+,\d+\s*%?")
 #: The columns of a table without a header, and a number that tells one.
-_BARE = ("state", "action", "next", "probability", "reward")
+_BARE = tuple(_COLUMNS)[:5]
 _BARE_NUMBER = re.compile(r"\s*[+−-]?[\d./,]+\s*%?\s*")
 #: What parts the cells of a Markdown table, what sets them off, and the line below its header.
 _BAR, _MARKUP, _RULE = re.compile(r"(?<!\\)\|"), re.compile(r"[`*$\\]"), re.compile(r"\s*:?-+:?\s*")
@@ -80,9 +80,9 @@ def read_markdown_table(text: str) -> dict[str, Any]:
 def _table(lines: Iterable[tuple[int, list[str]]], *, commas: bool) -> dict[str, Any]:
     """A header and its rows, each with the number of its line; where cells may hold decimal commas, these are read."""
     header, *rows = [(number, row) for number, row in lines if any(cell.strip() for cell in row)] or [(1, [])]
-    columns = _bare(header[1]) or _columns(header[1])
-    if _bare(header[1]):
+    if bare := _bare(header[1]):
         rows = [header, *rows]
+    columns = bare or _columns(header[1])
     read = []
     above: dict[str, str] = {}
     for number, row in rows:

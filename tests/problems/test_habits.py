@@ -78,6 +78,9 @@ RUN = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
          {"A": [["1/2", "1/2"], [0, "1/2"]], "B": [[0], ["3/2"]], "P": [[-2, 0], [0, -4]]}),
         ("linearise", {"dynamics": {"v": "u/m - g"}, "constants": {"m": 2, "g": "9.81"}, "state": {"v": 0},
                        "action": {"u": "m g"}}, {"action": {"u": "19.62"}}),
+        # the names of states and actions may be numbers
+        ("bayes-predict", {"belief": {"0": 1, "1": 0}, "motion": {0: {0: 1, 1: 1}, 1: {0: 0, 1: 0}}, "actions": [0]},
+         {"motion": {"0": {"0": {"1": 1}, "1": {"1": 1}}, "1": {"0": {"0": 1}, "1": {"0": 1}}}, "actions": ["0"]}),
         # words in another case
         ("bic", {"criterion": "aic", "fitted": {"x": {"log_likelihood": -9, "k": 1},
                                                 "y": {"log_likelihood": -8, "k": 1}}}, {"criterion": "AIC"}),
@@ -103,6 +106,14 @@ def test_what_can_mean_one_thing_only_is_read(name: str, given: dict[str, Any], 
         ("eligibility-trace", {"states": ["a"], "discount": 1, "discount_factor": 1, "lam": 1, "asked": [0]},
          "given.discount_factor is not a field"),
         ("rbf", {"position": [0, 1], "centres": [0, 1], "sigma": 1}, "given"),
+        # what would take for ever, or be longer than anything that is written
+        ("lqr-gain", {"A": "1" + " " * 5000 + "[1", "B": 1, "R": 1, "P": -1}, "given.A[1][2]: '[1' is not a number"),
+        ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": "0, " + "9" * 5000},
+         "given.asked[2]: '99"),
+        ("linearise", {"dynamics": {"v": "u/m"}, "constants": {"m": 99}, "state": {"v": 0},
+                       "action": {"u": "(" * 40 + "m" + "^4)" * 40}}, "given.action.u: '((((((((((((((((((("),
+        ("bayes-predict", {"belief": {"0": 1, "b": 0}, "motion": {0: {0: 0.5}, "b": {"b": 0.5}}, "actions": [0]},
+         "given.motion: holds states alone"),
         # one task of curvature 1 and optimum 3, or two
         ("maml-step", {"theta": 0, "alpha": 1, "beta": 1, "tasks": [1, 3]},
          "given.tasks[1]: must be a list, [curvature, optimum]"),
